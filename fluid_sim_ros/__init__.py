@@ -1,0 +1,2 @@
+"""ROS 2 simulator for aerial and underwater vehicles: MuJoCo with fluid forces."""
+

@@ -1,0 +1,51 @@
+"""Errors that the package raises; each message is one line that says what is allowed."""
+
+from collections.abc import Iterable
+
+
+class FluidSimError(Exception):
+    """Base of every error that the package raises on purpose."""
+
+
+class ConfigError(FluidSimError):
+    """A scene, vehicle or parameter file is wrong; the message names file, key and value."""
+
+
+class ModelError(FluidSimError):
+    """An MJCF model does not load or does not fit the scene that names it."""
+
+
+class CommandError(FluidSimError):
+    """A command has the wrong length, a value that is not finite, or an unknown target."""
+
+
+class PluginError(FluidSimError):
+    """The MuJoCo plugin library is missing or was built for another MuJoCo version."""
+
+
+class MissingExtraError(FluidSimError):
+    """An optional part is not installed; the message says which extra brings it."""
+
+
+class DivergedError(FluidSimError):
+    """
+    The simulation left the range of finite numbers.
+
+    Attributes
+    ----------
+    time
+        Simulated time of the first bad step [s].
+    body
+        Name of the body that holds the bad degree of freedom.
+
+    """
+
+    def __init__(self, message: str, *, time: float, body: str) -> None:
+        super().__init__(message)
+        self.time = time
+        self.body = body
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names as the tail of an error message: ``a, b, c`` or ``(none)``."""
+    return ', '.join(names) or '(none)'

@@ -1,0 +1,64 @@
+"""ctypes binding of the C functions in the plugin library (plugins/src/api.cc)."""
+
+import ctypes
+from collections.abc import Callable
+from functools import cache
+
+from fluid_sim_ros.errors import PluginError
+from fluid_sim_ros.plugins import load_plugins, plugin_library
+
+#: Names of the published wrench terms, in the order of the C enum ``Term``.
+TERMS = (
+    'drag', 'viscous', 'added_mass', 'magnus', 'kutta', 'buoyancy', 'damping', 'foil',
+)  # fmt: skip
+
+# Columns of an observation row (C enum ``Column``).
+POSITION = slice(0, 3)
+QUATERNION = slice(3, 7)
+LINEAR_VELOCITY = slice(7, 10)
+ANGULAR_VELOCITY = slice(10, 13)
+SPECIFIC_FORCE = slice(13, 16)
+ANGULAR_ACCELERATION = slice(16, 19)
+MEDIUM_VELOCITY = slice(19, 22)
+TOTAL = slice(22, 28)
+THRUST = slice(28, 34)
+FIRST_TERM = 34
+ROW_WIDTH = FIRST_TERM + 6 * len(TERMS)
+
+
+def term_columns(term: str) -> slice:
+    """Return the columns of a term's force and torque in an observation row."""
+    start = FIRST_TERM + 6 * TERMS.index(term)
+    return slice(start, start + 6)
+
+
+class Native:
+    """
+    The library's C functions with argument types set.
+
+    ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
+    forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
+    the interpreter lock while they run. See plugins/src/api.cc for their meaning.
+    """
+
+    def __init__(self, library: ctypes.CDLL) -> None:
+        pointer, integer = ctypes.c_void_p, ctypes.c_int
+        self.step: Callable[[int, int, int, int], int] = library.fsr_step
+        library.fsr_step.argtypes = [pointer, pointer, integer, pointer]
+        library.fsr_step.restype = integer
+        self.observe: Callable[[int, int, int, int, int, int, int], None] = library.fsr_observe
+        library.fsr_observe.argtypes = [
+            pointer, pointer, pointer, pointer, integer, integer, pointer,
+        ]  # fmt: skip
+        library.fsr_observe.restype = None
+        if library.fsr_row_width() != ROW_WIDTH or library.fsr_term_count() != len(TERMS):
+            raise PluginError(
+                f'{plugin_library()} and native.py are of different versions; reinstall the package'
+            )
+
+
+@cache
+def native() -> Native:
+    """Load the plugin library (once) and return its C functions."""
+    load_plugins()
+    return Native(ctypes.CDLL(str(plugin_library())))

@@ -1,0 +1,7 @@
+// Registers every fluid_sim.* plugin when the library is loaded (MuJoCo plugin mechanism).
+
+#include <mujoco/mujoco.h>
+
+#include "noop.h"
+
+mjPLUGIN_LIB_INIT(fluid_sim) { fluid_sim::RegisterNoop(); }
