@@ -1,0 +1,398 @@
+"""A scene: an MJCF model and its YAML file, validated, with every name resolved to an id once."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.environment import Schedule
+from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.plugins import load_plugins
+from fluid_sim_ros.resources import config_folder, models_folder
+from fluid_sim_ros.scene_schema import (
+    NAME_PATTERN,
+    ScheduledEvent,
+    SceneFile,
+    VehicleFile,
+    parse,
+    read_yaml,
+)
+
+#: Fluid rungs that ``Scene.compile(fluid=...)`` can force on a scene.
+FLUID_RUNGS = ('none', 'inertia', 'ellipsoid')
+INTEGRATORS = {
+    name.removeprefix('mjINT_').lower(): getattr(mujoco.mjtIntegrator, name)
+    for name in mujoco.mjtIntegrator.__members__
+}
+#: Above this density the one medium of a scene without a stated one is water [kg/m^3]; it lies
+#: between the densest air (1.4 at -20 degC) and the lightest water (958 at 100 degC).
+_WATER_DENSITY = 100.0
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """
+    One vehicle of a compiled scene.
+
+    Attributes
+    ----------
+    name
+        Topic prefix and key of commands.
+    body_id
+        Id of the base body; its frame is ``<name>/base_link``.
+    qpos_address, dof_address
+        Start of the free joint in qpos and qvel, or -1 for a base without one.
+    thrusters, thruster_ids
+        Actuator names in command order, and their ids, shape (n,).
+    thrust_range
+        Allowed commands [N], shape (n, 2); infinite where the model sets no limit.
+    joints, joint_ids
+        Actuators that ``cmd/joints`` sets by name, and their ids.
+    joint_range
+        Allowed commands, shape (m, 2).
+
+    """
+
+    name: str
+    body_id: int
+    qpos_address: int
+    dof_address: int
+    thrusters: tuple[str, ...]
+    thruster_ids: NDArray[np.int64]
+    thrust_range: NDArray[np.float64]
+    joints: tuple[str, ...]
+    joint_ids: NDArray[np.int64]
+    joint_range: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CompiledScene:
+    """A MuJoCo model with the scene's names resolved to ids."""
+
+    model: mujoco.MjModel
+    vehicles: dict[str, Vehicle]
+    schedule: Schedule
+    keyframe_id: int
+    medium: str
+
+
+@dataclass(frozen=True)
+class Scene:
+    """
+    A scene as its files state it; ``compile`` makes the model.
+
+    Attributes
+    ----------
+    name
+        Name in config/scenes, or the stem of the given file.
+    model_path
+        The MJCF file.
+    description, medium, duration, keyframe, schedule
+        As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
+    vehicles
+        Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
+
+    """
+
+    name: str
+    model_path: Path
+    description: str = ''
+    medium: str | None = None
+    duration: float = 10.0
+    keyframe: str | None = None
+    schedule: tuple[ScheduledEvent, ...] = ()
+    vehicles: dict[str, VehicleFile] | None = field(default=None)
+
+    @classmethod
+    def load(cls, scene: 'str | Path | Scene') -> 'Scene':
+        """
+        Read a scene by name, or by the path of a scene YAML file or an MJCF file.
+
+        Raises
+        ------
+        ConfigError
+            If no such scene exists, or its YAML has a fault (file, key, value and what is allowed).
+
+        """
+        if isinstance(scene, Scene):
+            return scene
+        path = Path(scene)
+        if path.suffix in ('.yaml', '.yml'):
+            return _from_yaml(path)
+        if path.suffix in ('.xml', '.mjcf') or path.is_file():
+            if not path.is_file():
+                raise ConfigError(f'{path}: no such MJCF file')
+            return cls(name=path.stem, model_path=path.resolve())
+        if str(scene) not in scene_names():
+            raise ConfigError(
+                f"scene '{scene}' is not known; scenes: {listed(scene_names())}; "
+                'or give the path of an MJCF (.xml) or scene (.yaml) file'
+            )
+        by_name = config_folder() / 'scenes' / f'{scene}.yaml'
+        if by_name.is_file():
+            return _from_yaml(by_name)
+        return cls(name=str(scene), model_path=models_folder() / f'{scene}.xml')
+
+    def compile(
+        self,
+        *,
+        timestep: float | None = None,
+        integrator: str | None = None,
+        fluid: str | None = None,
+    ) -> CompiledScene:
+        """
+        Compile the model and resolve every name.
+
+        Parameters
+        ----------
+        timestep
+            Replaces the model's timestep [s].
+        integrator
+            Replaces the model's integrator, one of ``INTEGRATORS`` (any case).
+        fluid
+            Replaces the model's fluid forces, one of ``FLUID_RUNGS``.
+
+        Raises
+        ------
+        ConfigError, ModelError
+            For a wrong option, a model that does not load, or names that the model lacks.
+
+        """
+        load_plugins()
+        spec = _read_model(self.model_path)
+        if timestep is not None:
+            if not (np.isfinite(timestep) and timestep > 0):
+                raise ConfigError(f'timestep {timestep} s: must be finite and above 0')
+            spec.option.timestep = timestep
+        if integrator is not None:
+            spec.option.integrator = _integrator(integrator)
+        if fluid is not None:
+            _force_fluid(spec, fluid, self.model_path)
+        model = _compile(spec, self.model_path)
+        vehicles = self._vehicles(model)
+        medium = self.medium or ('water' if model.opt.density > _WATER_DENSITY else 'air')
+        schedule = Schedule(self.schedule, model.opt.timestep)
+        _check_schedule(self, vehicles)
+        return CompiledScene(model, vehicles, schedule, self._keyframe_id(model), medium)
+
+    def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
+        files = self.vehicles
+        if files is None:
+            files = _free_bodies(model, self.model_path)
+        return {
+            name: _resolve(name, file, model, f'{self.name}: vehicle {name!r}')
+            for name, file in files.items()
+        }
+
+    def _keyframe_id(self, model: mujoco.MjModel) -> int:
+        if self.keyframe is None:
+            return -1
+        identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, self.keyframe)
+        if identity < 0:
+            names = [model.key(i).name for i in range(model.nkey)]
+            raise ConfigError(
+                f"{self.name}: keyframe '{self.keyframe}' is not in the model; "
+                f'it has: {listed(names)}'
+            )
+        return int(identity)
+
+
+def scene_names() -> list[str]:
+    """Return the names that ``Scene.load`` knows, sorted."""
+    names = {path.stem for path in (config_folder() / 'scenes').glob('*.yaml')}
+    names |= {path.stem for path in models_folder().glob('*.xml')}
+    return sorted(names)
+
+
+def _from_yaml(path: Path) -> Scene:
+    content = parse(SceneFile, read_yaml(path), path)
+    model_path = (path.parent / content.model).resolve()
+    if not content.model.endswith(('.xml', '.mjcf')):
+        model_path = models_folder() / f'{content.model}.xml'
+    if not model_path.is_file():
+        known = listed(sorted(p.stem for p in models_folder().glob('*.xml')))
+        raise ConfigError(
+            f"{path}: key 'model': no model '{content.model}'; models: {known}; "
+            'or give the path of an MJCF file, relative to this file'
+        )
+    vehicles = None
+    if content.vehicles is not None:
+        vehicles = {
+            name: _vehicle_file(value, path) if isinstance(value, str) else value
+            for name, value in content.vehicles.items()
+        }
+    return Scene(
+        name=path.stem,
+        model_path=model_path,
+        description=content.description,
+        medium=content.medium,
+        duration=content.duration,
+        keyframe=content.keyframe,
+        schedule=tuple(content.schedule),
+        vehicles=vehicles,
+    )
+
+
+def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
+    folder = config_folder() / 'vehicles'
+    beside = scene_path.parent / name
+    path = beside if name.endswith(('.yaml', '.yml')) else folder / f'{name}.yaml'
+    if not path.is_file():
+        known = listed(sorted(p.stem for p in folder.glob('*.yaml')))
+        raise ConfigError(f"{scene_path}: vehicle file '{name}' is not known; vehicles: {known}")
+    return parse(VehicleFile, read_yaml(path), path)
+
+
+def _read_model(path: Path) -> mujoco.MjSpec:
+    try:
+        return mujoco.MjSpec.from_file(str(path))
+    except ValueError as error:
+        raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
+
+
+def _compile(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
+    try:
+        return spec.compile()
+    except ValueError as error:
+        raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
+
+
+def _integrator(name: str) -> mujoco.mjtIntegrator:
+    if name.lower() not in INTEGRATORS:
+        raise ConfigError(f"integrator '{name}' is not known; allowed: {listed(INTEGRATORS)}")
+    return INTEGRATORS[name.lower()]
+
+
+def _force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
+    """Put the model on one rung of the ladder: no fluid, inertia boxes, or ellipsoids."""
+    if fluid not in FLUID_RUNGS:
+        raise ConfigError(f"fluid '{fluid}' is not known; allowed: {listed(FLUID_RUNGS)}")
+    if fluid == 'none':
+        spec.option.density = 0.0
+        spec.option.viscosity = 0.0
+        return
+    if spec.option.density <= 0 and spec.option.viscosity <= 0:
+        raise ConfigError(
+            f"fluid '{fluid}': {path} sets neither density nor viscosity in <option>; set one"
+        )
+    if fluid == 'inertia':
+        for geom in spec.geoms:
+            geom.fluid_ellipsoid = 0.0
+    elif not any(geom.fluid_ellipsoid > 0 for geom in spec.geoms):
+        # visual geoms (no contact) stay dry, as a model's author would have it
+        for geom in spec.geoms:
+            if geom.parent.name != 'world' and (geom.contype or geom.conaffinity):
+                geom.fluid_ellipsoid = 1.0
+
+
+def _free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:
+    """Return a vehicle for every body with a free joint, under a name fit for topics."""
+    found = {}
+    for joint in range(model.njnt):
+        if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
+            body = model.body(model.jnt_bodyid[joint]).name
+            name = re.sub(r'[^A-Za-z0-9_]', '_', body)
+            if not re.match(NAME_PATTERN, name):
+                raise ModelError(
+                    f'{path}: a body with a free joint has the name {body!r}, which is no topic '
+                    'name; give it a name that starts with a letter'
+                )
+            found[name] = VehicleFile(body=body)
+    if not found:
+        raise ModelError(
+            f'{path}: the model has no body with a free joint, so no vehicle; add a <freejoint/>, '
+            'or name the vehicles and their bodies in a scene YAML file'
+        )
+    return found
+
+
+def _resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> Vehicle:
+    body_id = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, file.body)
+    if body_id < 0:
+        names = listed(model.body(i).name for i in range(1, model.nbody))
+        raise ConfigError(f"{where}: body '{file.body}' is not in the model; it has: {names}")
+    joint = model.body_jntadr[body_id]
+    free = joint >= 0 and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
+    thrusters = file.thrusters
+    if thrusters is None:
+        thrusters = _actuators(model, body_id, mujoco.mjtTrn.mjTRN_SITE)
+    joints = file.joints
+    if joints is None:
+        joints = _actuators(model, body_id, mujoco.mjtTrn.mjTRN_JOINT)
+    thruster_ids = _actuator_ids(model, thrusters, where)
+    joint_ids = _actuator_ids(model, joints, where)
+    return Vehicle(
+        name=name,
+        body_id=int(body_id),
+        qpos_address=int(model.jnt_qposadr[joint]) if free else -1,
+        dof_address=int(model.jnt_dofadr[joint]) if free else -1,
+        thrusters=tuple(thrusters),
+        thruster_ids=thruster_ids,
+        thrust_range=_control_range(model, thruster_ids),
+        joints=tuple(joints),
+        joint_ids=joint_ids,
+        joint_range=_control_range(model, joint_ids),
+    )
+
+
+def _actuators(model: mujoco.MjModel, root: int, transmission: int) -> list[str]:
+    """Return the actuators that act on a body's subtree through one kind of transmission."""
+    found = []
+    for i in range(model.nu):
+        if model.actuator_trntype[i] != transmission:
+            continue
+        target = model.actuator_trnid[i, 0]
+        body = (
+            model.site_bodyid[target]
+            if transmission == mujoco.mjtTrn.mjTRN_SITE
+            else model.jnt_bodyid[target]
+        )
+        if _is_below(model, body, root):
+            found.append(model.actuator(i).name)
+    return found
+
+
+def _is_below(model: mujoco.MjModel, body: int, root: int) -> bool:
+    while body > root:
+        body = model.body_parentid[body]
+    return bool(body == root)
+
+
+def _actuator_ids(
+    model: mujoco.MjModel, names: Sequence[str], where: str
+) -> NDArray[np.int64]:
+    ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, name) for name in names]
+    for name, identity in zip(names, ids, strict=True):
+        if identity < 0:
+            has = listed(model.actuator(i).name for i in range(model.nu))
+            raise ConfigError(f"{where}: actuator '{name}' is not in the model; it has: {has}")
+    if len(set(ids)) != len(ids):
+        raise ConfigError(f'{where}: an actuator stands twice in: {listed(names)}')
+    return np.array(ids, dtype=np.int64)
+
+
+def _control_range(model: mujoco.MjModel, ids: NDArray[np.int64]) -> NDArray[np.float64]:
+    limits: NDArray[np.float64] = model.actuator_ctrlrange[ids].astype(float).reshape(-1, 2)
+    limits[model.actuator_ctrllimited[ids] == 0] = (-np.inf, np.inf)
+    return limits
+
+
+def _check_schedule(scene: Scene, vehicles: dict[str, Vehicle]) -> None:
+    """Refuse a schedule that names unknown vehicles or has thrust of the wrong length."""
+    for event in scene.schedule:
+        where = f'{scene.name}: schedule at {event.at:g} s'
+        for name in (*event.thrust, *event.wrench):
+            if name not in vehicles:
+                raise ConfigError(
+                    f"{where}: vehicle '{name}' is not in the scene; it has: {listed(vehicles)}"
+                )
+        for name, values in event.thrust.items():
+            expected = len(vehicles[name].thrusters)
+            if len(values) != expected:
+                raise ConfigError(
+                    f"{where}: thrust of '{name}' has {len(values)} values; it needs {expected}"
+                )

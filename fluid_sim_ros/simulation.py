@@ -1,0 +1,497 @@
+"""The simulation: MuJoCo stepped under watch, commands in, states and wrenches out."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.environment import exact
+from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.scene import Scene, Vehicle
+from fluid_sim_ros.scene_schema import ScheduledEvent
+from fluid_sim_ros.snapshot import ForceTorque, Snapshot, VehicleState
+
+Array = NDArray[np.float64]
+WRENCH_FRAMES = ('base_link', 'map')
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+@dataclass(frozen=True)
+class SavedState:
+    """Everything that the next step depends on; made by ``Simulation.save_state``."""
+
+    integration: Array
+    step: int
+    wind_w: Array
+    current_w: Array
+    wind_enabled: bool
+    wrenches: dict[str, tuple[Array, Array, str]]
+
+
+class Simulation:
+    """
+    A scene that runs.
+
+    Commands set by ``set_*`` take effect at the next step and hold until changed. World frame is
+    ENU, body frame FLU, SI units. One thread at a time may use a Simulation.
+
+    Parameters
+    ----------
+    scene
+        Name of a scene, path of an MJCF or scene file, or a ``Scene``.
+    seed
+        Seed of everything random in the scene.
+    timestep, integrator, fluid
+        Replace what the model states; see ``Scene.compile``.
+
+    Raises
+    ------
+    ConfigError, ModelError
+        If the scene or an option is wrong.
+
+    """
+
+    def __init__(
+        self,
+        scene: str | Path | Scene,
+        *,
+        seed: int = 0,
+        timestep: float | None = None,
+        integrator: str | None = None,
+        fluid: str | None = None,
+    ) -> None:
+        self.scene = Scene.load(scene)
+        self.seed = seed
+        compiled = self.scene.compile(timestep=timestep, integrator=integrator, fluid=fluid)
+        self.medium = compiled.medium
+        self._model = compiled.model
+        self._vehicles = compiled.vehicles
+        self._schedule = compiled.schedule
+        self._keyframe_id = compiled.keyframe_id
+        self._data = mujoco.MjData(self._model)
+        self._scratch = mujoco.MjData(self._model)
+
+        period_ns = exact(self._model.opt.timestep) * 1_000_000_000
+        self._ns_numerator, self._ns_denominator = period_ns.numerator, period_ns.denominator
+        self._names = tuple(self._vehicles)
+        self._index = {name: i for i, name in enumerate(self._names)}
+        self._bind()
+
+        self._initial_wind = self._model.opt.wind.copy()
+        self.reset()
+
+    def _bind(self) -> None:
+        """Resolve every address that stepping and observing need, once."""
+        library = nat.native()
+        self._native_step = library.step
+        self._native_observe = library.observe
+        self._model_address = self._model._address
+        self._data_address = self._data._address
+        self._report = np.zeros(2)
+        self._report_address = self._report.ctypes.data
+        bases = [vehicle.body_id for vehicle in self._vehicles.values()]
+        self._bases = np.array(bases, dtype=np.int32)
+        self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
+        self._observe_arguments = (
+            self._model_address, self._data_address, self._scratch._address,
+            self._bases.ctypes.data, len(bases),
+        )  # fmt: skip
+        self._rows_address = self._rows.ctypes.data
+
+    # ---- what it is ------------------------------------------------------------------------
+
+    @property
+    def model(self) -> mujoco.MjModel:
+        """The MuJoCo model; change it only between steps."""
+        return self._model
+
+    @property
+    def data(self) -> mujoco.MjData:
+        """The MuJoCo data that is stepped."""
+        return self._data
+
+    @property
+    def vehicles(self) -> Mapping[str, Vehicle]:
+        """Vehicles by name."""
+        return MappingProxyType(self._vehicles)
+
+    @property
+    def timestep(self) -> float:
+        """Timestep [s]."""
+        return float(self._model.opt.timestep)
+
+    @property
+    def step_count(self) -> int:
+        """Steps since the last reset."""
+        return self._step
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]: step count times timestep, free of summation error."""
+        return self._step * self._ns_numerator / self._ns_denominator * 1e-9
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time in whole nanoseconds, rounded once from the exact product [ns]."""
+        half = self._ns_denominator // 2
+        return (self._step * self._ns_numerator + half) // self._ns_denominator
+
+    # ---- stepping --------------------------------------------------------------------------
+
+    def step(self, n: int = 1) -> None:
+        """
+        Take n steps; every one of them is checked.
+
+        Raises
+        ------
+        DivergedError
+            At the first step that ends with a number that is not finite, or that MuJoCo answers
+            with one of its silent resets. The simulation then needs ``reset`` or ``load_state``.
+
+        """
+        end = self._step + n
+        if end > self._schedule.next_step or self._wrenches:
+            self._step_with_events(end)
+            return
+        done = self._native_step(self._model_address, self._data_address, n, self._report_address)
+        self._step += done
+        if done != n:
+            raise self._diverged()
+
+    def _step_with_events(self, end: int) -> None:
+        while self._step < end:
+            for change in self._schedule.take_due(self._step):
+                self._apply(change)
+            stop = min(end, self._schedule.next_step)
+            if self._wrenches:
+                # the axes of a commanded wrench turn with the body: hold them over one step only
+                stop = self._step + 1
+                self._write_wrenches()
+            n = stop - self._step
+            done = self._native_step(
+                self._model_address, self._data_address, n, self._report_address
+            )
+            self._step += done
+            if done != n:
+                raise self._diverged()
+
+    def _diverged(self) -> DivergedError:
+        time, dof = float(self._report[0]), int(self._report[1])
+        body = '(unknown)'
+        if 0 <= dof < self._model.nv:
+            body = self._model.body(self._model.dof_bodyid[dof]).name or '(unnamed)'
+        integrator = mujoco.mjtIntegrator(self._model.opt.integrator).name.removeprefix('mjINT_')
+        hint = f'try a timestep below {self.timestep:g} s'
+        if integrator in ('EULER', 'RK4'):
+            hint += ' or the integrator implicitfast'
+        return DivergedError(
+            f"the simulation diverged at t = {time:.6g} s in body '{body}' "
+            f'({integrator}, {self.timestep:g} s); {hint}',
+            time=time,
+            body=body,
+        )
+
+    def reset(self, keyframe: str | None = None) -> None:
+        """
+        Go back to time 0 at a keyframe (default: the scene's), without commands.
+
+        Raises
+        ------
+        CommandError
+            If the model has no such keyframe.
+
+        """
+        identity = self._keyframe_id
+        if keyframe is not None:
+            identity = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_KEY, keyframe)
+            if identity < 0:
+                names = listed(self._model.key(i).name for i in range(self._model.nkey))
+                raise CommandError(f"keyframe '{keyframe}' is not in the model; it has: {names}")
+        if identity >= 0:
+            mujoco.mj_resetDataKeyframe(self._model, self._data, identity)
+            self._data.time = 0.0
+        else:
+            mujoco.mj_resetData(self._model, self._data)
+        self._step = 0
+        self._wrenches: dict[str, tuple[Array, Array, str]] = {}
+        self._wind_enabled = True
+        self._wind_w = np.zeros(3)
+        self._current_w = np.zeros(3)
+        (self._current_w if self.medium == 'water' else self._wind_w)[:] = self._initial_wind
+        self._write_medium()
+        self._schedule.rewind(0)
+
+    def close(self) -> None:
+        """Release nothing that Python would not; here so that every source can be closed."""
+
+    # ---- commands --------------------------------------------------------------------------
+
+    def vehicle(self, name: str) -> Vehicle:
+        """Return a vehicle by name, or raise CommandError with the names that exist."""
+        try:
+            return self._vehicles[name]
+        except KeyError:
+            raise CommandError(
+                f"vehicle '{name}' is not in the scene; it has: {listed(self._vehicles)}"
+            ) from None
+
+    def set_thrust(self, vehicle: str, values: Sequence[float] | Array) -> int:
+        """
+        Command the thrusters of a vehicle.
+
+        Parameters
+        ----------
+        vehicle
+            Vehicle name.
+        values
+            One command per thruster in the order of ``vehicles[name].thrusters`` [N].
+
+        Returns
+        -------
+        int
+            How many values were beyond the thrusters' range and therefore saturated.
+
+        Raises
+        ------
+        CommandError
+            Unknown vehicle, wrong length, or a value that is not finite.
+
+        """
+        target = self.vehicle(vehicle)
+        return self._set_controls(
+            f"thrust of '{vehicle}'", values, target.thrusters, target.thruster_ids,
+            target.thrust_range,
+        )  # fmt: skip
+
+    def set_joints(self, vehicle: str, values: Mapping[str, float] | Sequence[float]) -> int:
+        """
+        Command the joint actuators of a vehicle, by name or all in order; as ``set_thrust``.
+
+        A mapping may name some of them; the others keep their commands.
+        """
+        target = self.vehicle(vehicle)
+        what = f"joints of '{vehicle}'"
+        if isinstance(values, Mapping):
+            unknown = [name for name in values if name not in target.joints]
+            if unknown:
+                raise CommandError(
+                    f"{what}: '{unknown[0]}' is not one of them: {listed(target.joints)}"
+                )
+            held = dict(zip(target.joints, self._data.ctrl[target.joint_ids], strict=True))
+            values = [{**held, **values}[name] for name in target.joints]
+        return self._set_controls(what, values, target.joints, target.joint_ids, target.joint_range)
+
+    def _set_controls(
+        self,
+        what: str,
+        values: Sequence[float] | Array,
+        names: tuple[str, ...],
+        ids: NDArray[np.int64],
+        limits: Array,
+    ) -> int:
+        command = _finite(what, values, len(names), f'({listed(names)})')
+        saturated = np.minimum(np.maximum(command, limits[:, 0]), limits[:, 1])
+        self._data.ctrl[ids] = saturated
+        return int(np.count_nonzero(saturated != command))
+
+    def set_wind(self, velocity: Sequence[float] | Array) -> None:
+        """
+        Set the wind [m/s, world axes, the direction that the air moves to].
+
+        Raises
+        ------
+        CommandError
+            Wrong length, not finite, or a scene whose only medium is water.
+
+        """
+        self._check_medium('wind', 'air', 'current')
+        self._wind_w[:] = _finite('wind', velocity, 3)
+        self._write_medium()
+
+    def set_current(self, velocity: Sequence[float] | Array) -> None:
+        """Set the current of the water; as ``set_wind``."""
+        self._check_medium('current', 'water', 'wind')
+        self._current_w[:] = _finite('current', velocity, 3)
+        self._write_medium()
+
+    def enable_wind(self, enabled: bool) -> None:
+        """Switch wind and current on or off; the commanded velocities are kept."""
+        self._wind_enabled = enabled
+        self._write_medium()
+
+    def _check_medium(self, what: str, medium: str, other: str) -> None:
+        if self.medium != medium:
+            raise CommandError(
+                f"{what}: scene '{self.scene.name}' is in {self.medium}; command the {other}"
+            )
+
+    def _write_medium(self) -> None:
+        velocity = self._current_w if self.medium == 'water' else self._wind_w
+        self._model.opt.wind = velocity if self._wind_enabled else 0.0
+
+    def set_wrench(
+        self,
+        vehicle: str,
+        force: Sequence[float] | Array,
+        torque: Sequence[float] | Array,
+        frame: str = 'base_link',
+    ) -> None:
+        """
+        Apply a wrench at a vehicle's base_link origin, on top of its thrust.
+
+        Parameters
+        ----------
+        vehicle
+            Vehicle name.
+        force, torque
+            [N] and [N m], shape (3,); zeros end it.
+        frame
+            Axes of both: ``base_link`` (they turn with the vehicle, step by step) or ``map``.
+
+        Raises
+        ------
+        CommandError
+            Unknown vehicle or frame, wrong length, not finite, or a base without a free joint.
+
+        """
+        target = self.vehicle(vehicle)
+        if frame not in WRENCH_FRAMES:
+            raise CommandError(
+                f"wrench of '{vehicle}': frame '{frame}' is not known; "
+                f'allowed: {listed(WRENCH_FRAMES)}'
+            )
+        if target.dof_address < 0:
+            raise CommandError(f"wrench of '{vehicle}': its base has no free joint")
+        force_f = _finite(f"force of '{vehicle}'", force, 3)
+        torque_f = _finite(f"torque of '{vehicle}'", torque, 3)
+        if force_f.any() or torque_f.any():
+            self._wrenches[vehicle] = (force_f, torque_f, frame)
+        elif self._wrenches.pop(vehicle, None):
+            self._data.qfrc_applied[target.dof_address : target.dof_address + 6] = 0
+
+    def _write_wrenches(self) -> None:
+        # generalized force of a free joint: force at the body origin in world axes, torque in
+        # body axes
+        for name, (force_f, torque_f, frame) in self._wrenches.items():
+            vehicle = self._vehicles[name]
+            quat_wb = self._data.qpos[vehicle.qpos_address + 3 : vehicle.qpos_address + 7]
+            target = self._data.qfrc_applied[vehicle.dof_address : vehicle.dof_address + 6]
+            if frame == 'base_link':
+                mujoco.mju_rotVecQuat(target[:3], force_f, quat_wb)
+                target[3:] = torque_f
+            else:
+                inverse = np.empty(4)
+                mujoco.mju_negQuat(inverse, quat_wb)
+                target[:3] = force_f
+                mujoco.mju_rotVecQuat(target[3:], torque_f, inverse)
+
+    def _apply(self, change: ScheduledEvent) -> None:
+        if change.wind is not None:
+            self.set_wind(change.wind)
+        if change.current is not None:
+            self.set_current(change.current)
+        for vehicle, values in change.thrust.items():
+            self.set_thrust(vehicle, values)
+        for vehicle, wrench in change.wrench.items():
+            self.set_wrench(vehicle, wrench.force, wrench.torque, wrench.frame)
+
+    # ---- observation -----------------------------------------------------------------------
+
+    def observe(self, forces: bool) -> Array:
+        """
+        Return one row per vehicle with the columns of ``plugins.native``, in scene order.
+
+        With ``forces`` accelerations and wrenches are evaluated at this very state, on a copy of
+        it: the trajectory does not change. The array is overwritten by the next call.
+        """
+        self._native_observe(*self._observe_arguments, forces, self._rows_address)
+        return self._rows
+
+    def snapshot(self) -> Snapshot:
+        """Return the state of every vehicle at this step boundary, as copies."""
+        rows = self.observe(forces=False).copy()
+        states = {
+            name: VehicleState(
+                position_w=row[nat.POSITION],
+                quat_wb_wxyz=row[nat.QUATERNION],
+                velocity_b=row[nat.LINEAR_VELOCITY],
+                omega_b=row[nat.ANGULAR_VELOCITY],
+                medium_velocity_w=row[nat.MEDIUM_VELOCITY],
+            )
+            for name, row in zip(self._names, rows, strict=True)
+        }
+        return Snapshot(time=self.time, step=self._step, vehicles=states)
+
+    def wrench(self, vehicle: str) -> dict[str, ForceTorque]:
+        """
+        Return the fluid wrench on a vehicle term by term, at this step boundary.
+
+        Keys are ``plugins.native.TERMS``; each value is (force, torque), [N] and [N m], shape (3,)
+        each, base_link axes, about the base_link origin, acting on the vehicle. Terms that the
+        scene does not have are zero.
+        """
+        self.vehicle(vehicle)
+        row = self.observe(forces=True)[self._index[vehicle]].copy()
+        terms = {}
+        for term in nat.TERMS:
+            force_torque = row[nat.term_columns(term)]
+            terms[term] = (force_torque[:3], force_torque[3:])
+        return terms
+
+    # ---- save and load ---------------------------------------------------------------------
+
+    def save_state(self) -> SavedState:
+        """Return everything that the next step depends on; going on from it is bit-identical."""
+        integration = np.empty(mujoco.mj_stateSize(self._model, _STATE))
+        mujoco.mj_getState(self._model, self._data, integration, _STATE)
+        return SavedState(
+            integration=integration,
+            step=self._step,
+            wind_w=self._wind_w.copy(),
+            current_w=self._current_w.copy(),
+            wind_enabled=self._wind_enabled,
+            wrenches=dict(self._wrenches),
+        )
+
+    def load_state(self, state: SavedState) -> None:
+        """
+        Go to a saved state.
+
+        Raises
+        ------
+        FluidSimError
+            If the state is of another model.
+
+        """
+        size = mujoco.mj_stateSize(self._model, _STATE)
+        if state.integration.shape != (size,):
+            raise FluidSimError(
+                f'the saved state has {state.integration.size} numbers, the model needs {size}: '
+                'it is of another model'
+            )
+        mujoco.mj_setState(self._model, self._data, state.integration, _STATE)
+        self._step = state.step
+        self._wind_w = state.wind_w.copy()
+        self._current_w = state.current_w.copy()
+        self._wind_enabled = state.wind_enabled
+        self._wrenches = dict(state.wrenches)
+        self._write_medium()
+        self._schedule.rewind(state.step)
+
+
+def _finite(what: str, values: Sequence[float] | Array, size: int, names: str = '') -> Array:
+    """Return values as an array of the right size and only finite numbers, or CommandError."""
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise CommandError(f'{what}: {values!r} are not numbers') from None
+    if array.shape != (size,):
+        raise CommandError(f'{what}: got {array.size} values, needs {size} {names}'.rstrip())
+    if not np.isfinite(array).all():
+        raise CommandError(f'{what}: {array.tolist()} holds a value that is not finite')
+    return array

@@ -1,0 +1,57 @@
+"""What the simulation shows of itself at one step boundary."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+#: Force [N] and torque [N m], base_link axes, about the base_link origin, acting on the vehicle.
+ForceTorque = tuple[Array, Array]
+
+
+@dataclass(frozen=True)
+class VehicleState:
+    """
+    State of one vehicle's base_link.
+
+    Attributes
+    ----------
+    position_w
+        Position of the base_link origin in the world (ENU) [m], shape (3,).
+    quat_wb_wxyz
+        Rotation from base_link (FLU) to world, unit quaternion, scalar first, shape (4,).
+    velocity_b, omega_b
+        Velocity of the origin [m/s] and angular velocity [rad/s], base_link axes, shape (3,).
+    medium_velocity_w
+        Velocity of the undisturbed medium at the origin, world axes [m/s], shape (3,).
+
+    """
+
+    position_w: Array
+    quat_wb_wxyz: Array
+    velocity_b: Array
+    omega_b: Array
+    medium_velocity_w: Array
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """
+    The simulation at one step boundary; its arrays are copies.
+
+    Attributes
+    ----------
+    time
+        Simulated time, step count times timestep [s].
+    step
+        Steps since the last reset.
+    vehicles
+        State per vehicle name.
+
+    """
+
+    time: float
+    step: int
+    vehicles: Mapping[str, VehicleState]
