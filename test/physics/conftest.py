@@ -1,0 +1,26 @@
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+# The shared helpers lie beside the tests, which are no package.
+sys.path.insert(0, str(Path(__file__).parent))
+
+
+# The same examples in every run; no files beside the tests.
+settings.register_profile('fixed', derandomize=True, deadline=None, database=None)
+settings.load_profile('fixed')
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(7)
+
+
+@pytest.fixture(autouse=True)
+def _no_numpy_warnings():
+    """Fail any test in which numpy would have warned (0/0, overflow, invalid)."""
+    with np.errstate(divide='raise', over='raise', invalid='raise'):
+        yield
