@@ -225,6 +225,8 @@ class Runner:
         What is run, where commands come from, where states go, and how fast.
     requests
         Work of other threads; None makes a queue of its own.
+    housekeeping
+        Called at every turn of the loop, also while paused or waiting; must return quickly.
 
     """
 
@@ -235,15 +237,16 @@ class Runner:
         sinks: Sequence[Sink],
         pacing: Pacing,
         requests: RequestQueue | None = None,
+        housekeeping: Callable[[], None] = lambda: None,
     ) -> None:
         self.simulation = simulation
         self.source = source
         self.sinks = list(sinks)
         self.pacing = pacing
         self.requests = requests or RequestQueue()
+        self.housekeeping = housekeeping
         self.paused = False
         self.stopped = False
-        self.single_steps = 0
         self._written = -1
 
     def stop(self) -> None:
@@ -266,9 +269,12 @@ class Runner:
 
         """
         self.pacing.begin(self.simulation)
-        simulation, requests, pacing = self.simulation, self.requests, self.pacing
+        simulation, requests = self.simulation, self.requests
         while not self.stopped:
             requests.serve()
+            self.housekeeping()
+            if self.stopped:
+                return
             step = simulation.step_count
             if step >= until:
                 self._write(step)
@@ -276,10 +282,9 @@ class Runner:
             self._write(step)
             if self.paused:
                 requests.idle()
-                pacing = self.pacing
-                pacing.begin(simulation)
+                self.pacing.begin(simulation)
                 continue
-            pacing = self.pacing
+            pacing = self.pacing  # a request may have changed it
             if not pacing.meet(simulation, self.source, requests):
                 continue
             simulation.step(self._advance(step, min(until - step, pacing.longest_advance())))

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.environment import exact
+from fluid_sim_ros.environment import Event, exact
 from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene, Vehicle
@@ -31,6 +31,7 @@ class SavedState:
     current_w: Array
     wind_enabled: bool
     wrenches: dict[str, tuple[Array, Array, str]]
+    added_events: tuple[Event, ...]
 
 
 class Simulation:
@@ -114,6 +115,11 @@ class Simulation:
     def data(self) -> mujoco.MjData:
         """The MuJoCo data that is stepped."""
         return self._data
+
+    @property
+    def observed(self) -> mujoco.MjData:
+        """The copy that the last ``observe(forces=True)`` evaluated; only to be read."""
+        return self._scratch
 
     @property
     def vehicles(self) -> Mapping[str, Vehicle]:
@@ -319,6 +325,23 @@ class Simulation:
         self._current_w[:] = _finite('current', velocity, 3)
         self._write_medium()
 
+    def schedule(self, time_ns: int, change: ScheduledEvent) -> None:
+        """
+        Have a change take effect at the first step boundary at or after ``time_ns`` [ns].
+
+        Raises
+        ------
+        CommandError
+            If the scene has no such medium; see ``set_wind``.
+
+        """
+        if change.wind is not None:
+            self._check_medium('wind', 'air', 'current')
+        if change.current is not None:
+            self._check_medium('current', 'water', 'wind')
+        step = -(-time_ns * self._ns_denominator // self._ns_numerator)
+        self._schedule.add(Event(max(step, self._step), change))
+
     def enable_wind(self, enabled: bool) -> None:
         """Switch wind and current on or off; the commanded velocities are kept."""
         self._wind_enabled = enabled
@@ -456,6 +479,7 @@ class Simulation:
             current_w=self._current_w.copy(),
             wind_enabled=self._wind_enabled,
             wrenches=dict(self._wrenches),
+            added_events=self._schedule.added(),
         )
 
     def load_state(self, state: SavedState) -> None:
@@ -481,7 +505,7 @@ class Simulation:
         self._wind_enabled = state.wind_enabled
         self._wrenches = dict(state.wrenches)
         self._write_medium()
-        self._schedule.rewind(state.step)
+        self._schedule.rewind(state.step, state.added_events)
 
 
 def _finite(what: str, values: Sequence[float] | Array, size: int, names: str = '') -> Array:

@@ -1,0 +1,182 @@
+"""What the node says of itself on /diagnostics, once per second of wall time."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from fluid_sim_ros.physics.reynolds import reynolds_number
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.ros.inputs import Inputs
+from fluid_sim_ros.runner import Lockstep, RealTime, Runner
+from fluid_sim_ros.simulation import Simulation
+
+_OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+#: MuJoCo warnings that leave the state alone but mean that something was cut short.
+_LIMIT_WARNINGS = ('mjWARN_INERTIA', 'mjWARN_CONTACTFULL', 'mjWARN_CNSTRFULL', 'mjWARN_BADCTRL')
+#: Missing answers (at 10 Hz of wall time) after which holding counts as an error.
+_PATIENT_MISSES = 10
+
+
+class GraphMonitor:
+    """Watches the ROS graph for peers that must not exist; runs in the executor's thread."""
+
+    def __init__(self, node: Node, report: Callable[[str, str], None]) -> None:
+        self._node = node
+        self._report = report
+        self.faults: tuple[str, ...] = ()
+        self._timer = node.create_timer(1.0, self.look)
+
+    def look(self) -> None:
+        """Read the graph and keep what is wrong with it."""
+        node = self._node
+        faults = []
+        clocks = node.get_publishers_info_by_topic('/clock')
+        if len(clocks) > 1:
+            # this node has one publisher; the others are named
+            names = sorted({f'{c.node_namespace.rstrip("/")}/{c.node_name}' for c in clocks})
+            faults.append(f'{len(clocks)} publishers of /clock: {", ".join(names)}')
+        own = (node.get_name(), node.get_namespace())
+        if node.get_node_names_and_namespaces().count(own) > 1:
+            faults.append(f'another node is called {node.get_fully_qualified_name()}')
+        for fault in faults:
+            self._report(fault, fault)
+        self.faults = tuple(faults)
+
+
+class Diagnostics:
+    """The /diagnostics publisher of a configured node; used by the stepping thread only."""
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        inputs: Inputs,
+        graph: GraphMonitor,
+    ) -> None:
+        self._node = node
+        self._simulation = simulation
+        self._inputs = inputs
+        self._graph = graph
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', QoSProfile(depth=10))
+        self._wall = time.monotonic()
+        self._simulated = simulation.time
+        self._misses = 0
+        self.real_time_factor = 0.0
+
+    def publish(self, runner: Runner, diverged: str) -> None:
+        """Publish the present state of everything."""
+        self._measure_speed()
+        message = DiagnosticArray()
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.status = [
+            self._loop(runner, diverged), self._commands(), self._engine(), self._peers(),
+        ]  # fmt: skip
+        message.status += [self._vehicle(i, name) for i, name in enumerate(self._simulation.vehicles)]
+        self._publisher.publish(message)
+
+    def destroy(self) -> None:
+        """Remove the publisher from the node."""
+        self._node.destroy_publisher(self._publisher)
+
+    def _measure_speed(self) -> None:
+        now, simulated = time.monotonic(), self._simulation.time
+        if now > self._wall:
+            self.real_time_factor = (simulated - self._simulated) / (now - self._wall)
+        self._wall, self._simulated = now, simulated
+
+    def _status(self, part: str, level: Any, message: str, **values: Any) -> DiagnosticStatus:
+        return DiagnosticStatus(
+            level=level,
+            name=f'{self._node.get_name()}: {part}',
+            message=message,
+            hardware_id=self._simulation.scene.name,
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+
+    def _loop(self, runner: Runner, diverged: str) -> DiagnosticStatus:
+        pacing = runner.pacing
+        values: dict[str, Any] = {
+            'time_s': f'{self._simulation.time:.9f}',
+            'step': self._simulation.step_count,
+            'real_time_factor': f'{max(self.real_time_factor, 0.0):.3f}',
+            'paused': runner.paused,
+        }
+        level, message = _OK, 'paused' if runner.paused else 'running'
+        if isinstance(pacing, RealTime):
+            values['overruns'] = pacing.overruns
+        if isinstance(pacing, Lockstep):
+            waiting = self._inputs.awaited()
+            values['lockstep_waits_for'] = ', '.join(waiting)
+            values['lockstep_misses'] = pacing.misses
+            if waiting and pacing.misses - self._misses >= _PATIENT_MISSES // 2:
+                level, message = _ERROR, f'no answer on {", ".join(waiting)}'
+            self._misses = pacing.misses
+        if diverged:
+            level, message = _ERROR, diverged
+        return self._status('loop', level, message, **values)
+
+    def _commands(self) -> DiagnosticStatus:
+        inputs = self._inputs
+        values: dict[str, Any] = {}
+        for entry in inputs.inputs:
+            values[f'{entry.topic} received'] = entry.received
+            values[f'{entry.topic} rejected'] = entry.rejected
+            if entry.last_error:
+                values[f'{entry.topic} last error'] = entry.last_error
+        values['saturated values'] = inputs.saturated
+        values['ignored answers'] = inputs.ignored_answers
+        stale = [name for name, freshness in inputs.freshness.items() if freshness.stale]
+        values['times stale'] = sum(f.times_stale for f in inputs.freshness.values())
+        if stale:
+            return self._status('commands', _WARN, f'stale: {", ".join(stale)}', **values)
+        rejected = sum(entry.rejected for entry in inputs.inputs)
+        if rejected:
+            return self._status('commands', _WARN, f'{rejected} rejected', **values)
+        return self._status('commands', _OK, 'fresh', **values)
+
+    def _engine(self) -> DiagnosticStatus:
+        warnings = self._simulation.data.warning
+        counts = {
+            name.removeprefix('mjWARN_').lower(): int(warnings[getattr(mujoco.mjtWarning, name)].number)
+            for name in _LIMIT_WARNINGS
+        }
+        raised = [name for name, count in counts.items() if count]
+        if raised:
+            return self._status('engine', _WARN, f'warnings: {", ".join(raised)}', **counts)
+        return self._status('engine', _OK, 'no warnings', **counts)
+
+    def _peers(self) -> DiagnosticStatus:
+        faults = self._graph.faults
+        return self._status('graph', _ERROR if faults else _OK, '; '.join(faults) or 'alone')
+
+    def _vehicle(self, index: int, name: str) -> DiagnosticStatus:
+        simulation = self._simulation
+        row = simulation.observe(forces=False)[index]
+        quat_bw = np.empty(4)
+        mujoco.mju_negQuat(quat_bw, row[nat.QUATERNION])
+        medium_b = np.empty(3)
+        mujoco.mju_rotVecQuat(medium_b, row[nat.MEDIUM_VELOCITY], quat_bw)
+        speed = float(np.linalg.norm(row[nat.LINEAR_VELOCITY] - medium_b))
+        option = simulation.model.opt
+        reynolds = float('nan')
+        if option.density > 0 and option.viscosity > 0:
+            length = self._length(simulation.vehicles[name].body_id)
+            reynolds = float(
+                reynolds_number(speed, length, option.density, option.viscosity)
+            )
+        return self._status(
+            f'vehicle {name}', _OK, 'moving' if speed else 'at rest',
+            speed_through_medium_m_s=f'{speed:.4f}', reynolds_number=f'{reynolds:.4g}',
+        )  # fmt: skip
+
+    def _length(self, body: int) -> float:
+        """Return the largest extent of a body's geoms [m], the length of its Reynolds number."""
+        model = self._simulation.model
+        start, count = model.body_geomadr[body], model.body_geomnum[body]
+        return 2 * max((float(model.geom_rbound[start + i]) for i in range(count)), default=0.0)

@@ -1,0 +1,388 @@
+"""The node's command topics: taken by the stepping thread itself, checked, applied, counted."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from geometry_msgs.msg import TwistStamped, WrenchStamped
+from rclpy.callback_groups import CallbackGroup
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
+
+from fluid_sim_ros.errors import CommandError, ConfigError, FluidSimError, listed
+from fluid_sim_ros.ros.cdr import read_float64_multi_array, read_joint_state, read_stamped_pair
+from fluid_sim_ros.scene import Vehicle
+from fluid_sim_ros.scene_schema import ScheduledEvent
+from fluid_sim_ros.simulation import Simulation
+
+#: Wall time between two looks at which topics have publishers [s].
+REFRESH_PERIOD = 0.1
+
+
+class PolledGroup(CallbackGroup):
+    """Keeps the executor away from subscriptions that the stepping thread takes from itself."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Return False: the executor never takes these."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Return False, as ``can_execute``."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Do nothing: no execution ever began."""
+
+
+@dataclass
+class Input:
+    """One command topic and what became of its messages."""
+
+    topic: str
+    message: type
+    subscription: Any
+    apply: Callable[[Simulation, bytes], bool]
+    required: bool = False
+    optional: bool = False
+    received: int = 0
+    rejected: int = 0
+    last_error: str = ''
+
+
+@dataclass
+class Freshness:
+    """When a vehicle was last commanded, on the clock that ``command_timeout`` refers to."""
+
+    commanded_at: float | None = None
+    stale: bool = False
+    times_stale: int = 0
+
+
+class Inputs:
+    """
+    Every command topic of a node, as a source for the runner.
+
+    ``poll`` takes what has arrived; ``wait`` blocks until the awaited topics have answered the
+    present state. Both run in the stepping thread.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        settings: dict[str, Any],
+        report: Callable[[str, str], None],
+    ) -> None:
+        self._node = node
+        self._settings = settings
+        self._report = report
+        self._by_count = settings['lockstep.match'] == 'count'
+        self._group = PolledGroup()
+        self.saturated = 0
+        self.ignored_answers = 0
+        self.freshness = {name: Freshness() for name in simulation.vehicles}
+        self.inputs: list[Input] = []
+        for vehicle in simulation.vehicles.values():
+            self._add_vehicle(vehicle)
+        self._add('wind', TwistStamped, lambda s, d: self._medium(s, d, 'wind'))
+        self._add('current', TwistStamped, lambda s, d: self._medium(s, d, 'current'))
+        self._choose_awaited(simulation, settings['lockstep.wait_for'])
+        self._guard = node.create_guard_condition(lambda: None, callback_group=self._group)
+        self._wait_set = _rclpy.WaitSet(
+            len(self.inputs), 1, 0, 0, 0, 0, node.context.handle
+        )
+        self._missing: list[Input] = []
+        self._missing_step = -1
+        self._refreshed_at = 0.0
+        self._active: list[Input] = []
+        self._refresh()
+
+    # ---- topics ----------------------------------------------------------------------------
+
+    def _add_vehicle(self, vehicle: Vehicle) -> None:
+        name = vehicle.name
+        if vehicle.thrusters:
+            scale = self._thrust_scale(vehicle)
+            self._add(
+                f'{name}/cmd/thrust', Float64MultiArray,
+                lambda s, d: self._thrust(s, vehicle, read_float64_multi_array(d), scale),
+                keep_all=self._by_count,
+            )  # fmt: skip
+            self._add(
+                f'{name}/cmd/thrust_stamped', JointState,
+                lambda s, d: self._thrust_stamped(s, vehicle, d, scale),
+            )  # fmt: skip
+        if vehicle.dof_address >= 0:
+            self._add(f'{name}/cmd/wrench', WrenchStamped, lambda s, d: _wrench(s, vehicle, d))
+        if vehicle.joints:
+            self._add(f'{name}/cmd/joints', JointState, lambda s, d: self._joints(s, vehicle, d))
+
+    def _add(
+        self,
+        topic: str,
+        message: type,
+        apply: Callable[[Simulation, bytes], bool],
+        keep_all: bool = False,
+    ) -> None:
+        history = HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST
+        subscription = self._node.create_subscription(
+            message, topic, lambda _: None,
+            QoSProfile(history=history, depth=1, reliability=ReliabilityPolicy.RELIABLE),
+            callback_group=self._group, raw=True,
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )  # fmt: skip
+        self.inputs.append(Input(topic, message, subscription, apply))
+
+    def _choose_awaited(self, simulation: Simulation, wait_for: Sequence[str]) -> None:
+        wanted = [topic for topic in wait_for if topic]
+        if not wanted:
+            leaf = 'thrust' if self._by_count else 'thrust_stamped'
+            wanted = [f'{v.name}/cmd/{leaf}' for v in simulation.vehicles.values() if v.thrusters]
+        by_topic = {entry.topic: entry for entry in self.inputs}
+        for topic in wanted:
+            entry = by_topic.get(topic.removesuffix('?'))
+            if entry is None:
+                raise ConfigError(
+                    f"parameter 'lockstep.wait_for': '{topic}' is no command topic of this scene; "
+                    f'it has: {listed(by_topic)}'
+                )
+            entry.required = True
+            entry.optional = topic.endswith('?')
+
+    def check_awaited(self) -> None:
+        """
+        Check that lockstep has something to wait for.
+
+        Raises
+        ------
+        ConfigError
+            If no vehicle has thrusters and ``lockstep.wait_for`` is empty.
+
+        """
+        if not any(entry.required for entry in self.inputs):
+            raise ConfigError(
+                "parameter 'pacing': lockstep needs a topic to wait for, and no vehicle of the "
+                "scene has thrusters; set 'lockstep.wait_for' or another pacing"
+            )
+
+    def destroy(self) -> None:
+        """Remove the subscriptions from the node."""
+        for entry in self.inputs:
+            self._node.destroy_subscription(entry.subscription)
+        self._node.destroy_guard_condition(self._guard)
+
+    # ---- the runner's source ---------------------------------------------------------------
+
+    def poll(self, simulation: Simulation) -> None:
+        """Apply what has arrived; topics that nobody publishes are looked at ten times a second."""
+        now = time.monotonic()
+        if now - self._refreshed_at > REFRESH_PERIOD:
+            self._refreshed_at = now
+            self._refresh()
+            for entry in self.inputs:
+                self._drain(simulation, entry)
+        else:
+            for entry in self._active:
+                self._drain(simulation, entry)
+        self._expire(simulation, now)
+
+    def wait(self, simulation: Simulation, timeout: float) -> bool:
+        """Block until every awaited topic has answered this step; False on timeout or a wake."""
+        if self._missing_step != simulation.step_count:
+            self._missing_step = simulation.step_count
+            self._missing = [
+                e for e in self.inputs
+                if e.required and (not e.optional or e.subscription.get_publisher_count())
+            ]  # fmt: skip
+        deadline = time.monotonic() + timeout
+        self.poll_unawaited(simulation)
+        while True:
+            self._missing = [e for e in self._missing if not self._answered(simulation, e)]
+            if not self._missing:
+                self._expire(simulation, time.monotonic())
+                return True
+            left = deadline - time.monotonic()
+            if left <= 0 or self._block(left):
+                return False
+
+    def wake(self) -> None:
+        """End a ``wait`` from another thread."""
+        self._guard.trigger()
+
+    def poll_unawaited(self, simulation: Simulation) -> None:
+        """Apply what has arrived on topics that the lockstep does not wait for."""
+        now = time.monotonic()
+        if now - self._refreshed_at > REFRESH_PERIOD:
+            self._refreshed_at = now
+            self._refresh()
+        for entry in self._active:
+            if not entry.required:
+                self._drain(simulation, entry)
+
+    def awaited(self) -> list[str]:
+        """Return the topics whose answer is missing now."""
+        return [entry.topic for entry in self._missing]
+
+    def _refresh(self) -> None:
+        self._active = [e for e in self.inputs if e.subscription.get_publisher_count()]
+
+    def _drain(self, simulation: Simulation, entry: Input) -> None:
+        take = entry.subscription.handle.take_message
+        while (got := take(entry.message, True)) is not None:
+            self._offer(simulation, entry, got[0])
+
+    def _answered(self, simulation: Simulation, entry: Input) -> bool:
+        """Take one topic's messages until one of them answers the present state."""
+        take = entry.subscription.handle.take_message
+        while (got := take(entry.message, True)) is not None:
+            if self._offer(simulation, entry, got[0]):
+                return True
+        return False
+
+    def _block(self, timeout: float) -> bool:
+        """Wait for a message on a missing topic; True when woken by the guard instead."""
+        wait_set = self._wait_set
+        wait_set.clear_entities()
+        for entry in self._missing:
+            wait_set.add_subscription(entry.subscription.handle)
+        wait_set.add_guard_condition(self._guard.handle)
+        wait_set.wait(int(timeout * 1e9))
+        return bool(wait_set.get_ready_entities('guard_condition'))
+
+    def _offer(self, simulation: Simulation, entry: Input, data: bytes) -> bool:
+        """Apply one message; a fault is counted and reported. True when it answers this step."""
+        entry.received += 1
+        try:
+            return entry.apply(simulation, data)
+        except FluidSimError as error:
+            entry.rejected += 1
+            entry.last_error = str(error)
+            self._report(entry.topic, f'{entry.topic}: rejected: {error}')
+            return False
+
+    # ---- one function per kind of command --------------------------------------------------
+
+    def _thrust_scale(self, vehicle: Vehicle) -> Any:
+        """Return the limits that a normalized command is a share of, or None for newton."""
+        if self._settings['thrust.unit'] == 'newton':
+            return None
+        if not np.isfinite(vehicle.thrust_range).all():
+            raise ConfigError(
+                f"parameter 'thrust.unit': normalized needs a ctrlrange for every thruster of "
+                f"'{vehicle.name}'"
+            )
+        return vehicle.thrust_range
+
+    def _thrust(
+        self, simulation: Simulation, vehicle: Vehicle, values: Any, scale: Any
+    ) -> bool:
+        if scale is not None and len(values) == len(scale):
+            values = np.where(values >= 0, values * scale[:, 1], -values * scale[:, 0])
+        saturated = simulation.set_thrust(vehicle.name, values)
+        if saturated:
+            self.saturated += saturated
+            self._report(
+                f'{vehicle.name} saturated',
+                f"thrust of '{vehicle.name}': {saturated} of {len(values)} values saturated",
+            )
+        freshness = self.freshness[vehicle.name]
+        freshness.commanded_at = self._command_clock(simulation, time.monotonic())
+        freshness.stale = False
+        return True
+
+    def _thrust_stamped(
+        self, simulation: Simulation, vehicle: Vehicle, data: bytes, scale: Any
+    ) -> bool:
+        command = read_joint_state(data)
+        if self._settings['pacing'] == 'lockstep' and not self._by_count and command.stamp_ns != simulation.time_ns:
+            if command.stamp_ns > simulation.time_ns:
+                raise CommandError(
+                    f'stamp {command.stamp_ns} ns is ahead of the simulation '
+                    f'({simulation.time_ns} ns); answer an odometry with its own stamp'
+                )
+            self.ignored_answers += 1  # a second answer to a state that was answered
+            return False
+        values = command.effort
+        if command.names:
+            values = _by_name(vehicle, command.names, values)
+        return self._thrust(simulation, vehicle, values, scale)
+
+    def _joints(self, simulation: Simulation, vehicle: Vehicle, data: bytes) -> bool:
+        command = read_joint_state(data)
+        values = command.position if len(command.position) else command.effort
+        if not command.names:
+            self.saturated += simulation.set_joints(vehicle.name, values)
+            return True
+        if len(command.names) != len(values):
+            raise CommandError(f'{len(command.names)} names, but {len(values)} values')
+        named = dict(zip(command.names, values.tolist(), strict=True))
+        self.saturated += simulation.set_joints(vehicle.name, named)
+        return True
+
+    def _medium(self, simulation: Simulation, data: bytes, which: str) -> bool:
+        command = read_stamped_pair(data)
+        if command.frame not in ('', 'map'):
+            raise CommandError(f"frame '{command.frame}' is not known; allowed: map")
+        if not np.isfinite(command.first).all():
+            raise CommandError(f'{command.first.tolist()} holds a value that is not finite')
+        if command.stamp_ns > simulation.time_ns:
+            change = ScheduledEvent(at=0, **{which: command.first.tolist()})
+            simulation.schedule(command.stamp_ns, change)
+        elif which == 'wind':
+            simulation.set_wind(command.first)
+        else:
+            simulation.set_current(command.first)
+        return True
+
+    # ---- stale commands --------------------------------------------------------------------
+
+    def _command_clock(self, simulation: Simulation, now: float) -> float:
+        return now if self._settings['pacing'] == 'free' else simulation.time
+
+    def _expire(self, simulation: Simulation, now: float) -> None:
+        limit = self._settings['command_timeout']
+        if not limit:
+            return
+        now = self._command_clock(simulation, now)
+        for name, freshness in self.freshness.items():
+            at = freshness.commanded_at
+            if at is not None and not freshness.stale and now - at > limit:
+                freshness.stale = True
+                freshness.times_stale += 1
+                simulation.set_thrust(name, np.zeros(len(simulation.vehicles[name].thrusters)))
+                self._report(
+                    f'{name} stale',
+                    f"thrust of '{name}': no command for {limit:g} s, thrust set to zero",
+                )
+
+    def forget(self) -> None:
+        """Start anew after a reset: nothing is stale before the first command."""
+        for freshness in self.freshness.values():
+            freshness.commanded_at = None
+            freshness.stale = False
+        self._missing_step = -1
+
+
+def _by_name(vehicle: Vehicle, names: list[str], values: Any) -> Any:
+    """Return values in the thrusters' order."""
+    if sorted(names) != sorted(vehicle.thrusters) or len(names) != len(values):
+        raise CommandError(
+            f'names must be the thrusters {listed(vehicle.thrusters)}, one effort each, or empty'
+        )
+    place = {name: i for i, name in enumerate(names)}
+    return np.array([values[place[name]] for name in vehicle.thrusters])
+
+
+def _wrench(simulation: Simulation, vehicle: Vehicle, data: bytes) -> bool:
+    command = read_stamped_pair(data)
+    frames = {f'{vehicle.name}/base_link': 'base_link', 'map': 'map'}
+    if command.frame not in frames:
+        raise CommandError(f"frame '{command.frame}' is not known; allowed: {listed(frames)}")
+    simulation.set_wrench(vehicle.name, command.first, command.second, frames[command.frame])
+    return True

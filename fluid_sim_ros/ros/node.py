@@ -1,0 +1,287 @@
+"""
+``fluid_sim_node``: the simulation as a ROS 2 lifecycle node.
+
+The main thread steps, publishes and takes commands; a second thread runs the executor (services,
+parameters, lifecycle) and hands its work over as requests that are served between steps.
+"""
+
+import os
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+import rclpy
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from std_srvs.srv import SetBool, Trigger
+
+from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.ros import parameters
+from fluid_sim_ros.ros.diagnostics import GraphMonitor
+from fluid_sim_ros.ros.session import Session
+from fluid_sim_ros.runner import RequestQueue
+
+Result = TypeVar('Result')
+
+NODE_NAME = 'fluid_sim_node'
+#: How long a service waits for the stepping thread [s]; configuring compiles a model.
+_REQUEST_TIMEOUT = 5.0
+_CONFIGURE_TIMEOUT = 60.0
+#: Least wall time between two log lines about the same fault [s].
+_LOG_PERIOD = 1.0
+
+
+class FluidSimNode(LifecycleNode):
+    """
+    Lifecycle node around a Session.
+
+    Services: ``~/reset``, ``~/step`` (Trigger), ``~/pause``, ``~/enable_wind`` (SetBool); their
+    answers carry the simulated time.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(NODE_NAME)
+        parameters.declare_all(self)
+        self._requests = RequestQueue(on_arrival=self._wake)
+        self._stepping_thread = threading.get_ident()
+        self._session: Session | None = None
+        self._active = False
+        self._ending = False
+        self._logged_at: dict[str, float] = {}
+        self.configure_error = ''
+        self.add_on_set_parameters_callback(self._judge_change)
+        self.add_post_set_parameters_callback(self._take_change)
+        self._graph = GraphMonitor(self, self._report)
+        self.create_service(Trigger, '~/reset', self._on_reset)
+        self.create_service(Trigger, '~/step', self._on_step)
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.create_service(SetBool, '~/enable_wind', self._on_enable_wind)
+
+    # ---- stepping thread -------------------------------------------------------------------
+
+    def run(self) -> None:
+        """
+        Run until ``end``, or until the parameter ``duration`` is over.
+
+        Raises
+        ------
+        FluidSimError
+            If a rule of the lockstep says to stop.
+
+        """
+        while not self._ending:
+            self._requests.serve()
+            session = self._session
+            if session is None:
+                self._requests.idle()
+            elif not self._active or session.diverged:
+                session.idle(self._requests)
+            elif session.run():
+                return
+
+    def end(self) -> None:
+        """Have ``run`` return; safe in a signal handler and in any thread."""
+        self._ending = True
+        if self._session is not None:
+            self._session.runner.stop()
+        self._wake()
+
+    def close(self) -> None:
+        """Refuse further requests and remove the session."""
+        self._requests.close()
+        self._destroy_session()
+
+    def _wake(self) -> None:
+        session = self._session
+        if session is not None:
+            session.inputs.wake()
+
+    def _report(self, key: str, line: str) -> None:
+        """Log a fault, not more often than once per second."""
+        now = time.monotonic()
+        if now - self._logged_at.get(key, -_LOG_PERIOD) >= _LOG_PERIOD:
+            self._logged_at[key] = now
+            self.get_logger().warning(line)
+
+    def _on_stepping_thread(
+        self, work: Callable[[], Result], timeout: float = _REQUEST_TIMEOUT
+    ) -> Result:
+        if threading.get_ident() == self._stepping_thread:
+            return work()
+        return self._requests.call(work, timeout)
+
+    # ---- lifecycle -------------------------------------------------------------------------
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Load the scene and create the topics."""
+        return self._transition(self._create_session, _CONFIGURE_TIMEOUT)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Begin to step."""
+        return self._transition(lambda: self._set_active(True))
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop stepping; the state is kept."""
+        return self._transition(lambda: self._set_active(False))
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Remove the scene and its topics."""
+        return self._transition(self._destroy_session)
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """End the node's loop."""
+        self.end()
+        return TransitionCallbackReturn.SUCCESS
+
+    def _transition(
+        self, work: Callable[[], None], timeout: float = _REQUEST_TIMEOUT
+    ) -> TransitionCallbackReturn:
+        try:
+            self._on_stepping_thread(work, timeout)
+        except FluidSimError as error:
+            self.configure_error = str(error)
+            self.get_logger().error(str(error))
+            return TransitionCallbackReturn.FAILURE
+        return TransitionCallbackReturn.SUCCESS
+
+    def _create_session(self) -> None:
+        settings = parameters.read_all(self)
+        session = Session(self, settings, self._requests, self._graph, self._report)
+        self._session = session
+        self.get_logger().info(
+            f"scene '{session.simulation.scene.name}': "
+            f'vehicles {", ".join(session.simulation.vehicles)}; {settings["pacing"]} pacing'
+        )
+
+    def _set_active(self, active: bool) -> None:
+        self._active = active
+        if self._session is not None:
+            self._session.runner.stopped = not active
+
+    def _destroy_session(self) -> None:
+        session, self._session = self._session, None
+        self._active = False
+        if session is not None:
+            session.runner.stop()
+            session.destroy()
+
+    # ---- services and parameters (executor thread) -----------------------------------------
+
+    def _serve(self, response: Any, work: Callable[[Session], str]) -> Any:
+        def on_session() -> str:
+            if self._session is None:
+                raise FluidSimError('the node is not configured')
+            return work(self._session)
+
+        try:
+            response.message = self._on_stepping_thread(on_session)
+            response.success = True
+        except FluidSimError as error:
+            response.message = str(error)
+            response.success = False
+        return response
+
+    def _on_reset(self, request: Any, response: Any) -> Any:
+        return self._serve(response, lambda session: session.reset())
+
+    def _on_step(self, request: Any, response: Any) -> Any:
+        return self._serve(response, lambda session: session.step())
+
+    def _on_pause(self, request: Any, response: Any) -> Any:
+        return self._serve(response, lambda session: session.pause(request.data))
+
+    def _on_enable_wind(self, request: Any, response: Any) -> Any:
+        return self._serve(response, lambda session: session.enable_wind(request.data))
+
+    def _judge_change(self, changes: list[Parameter]) -> SetParametersResult:
+        return parameters.judge_change(changes, self._session is not None)
+
+    def _take_change(self, changes: list[Parameter]) -> None:
+        names = [p.name for p in changes if p.name in parameters.TABLE]
+        if self._session is None or not names:
+            return
+        present = parameters.read_all(self)
+        values = {name: present[name] for name in names}
+        try:
+            self._on_stepping_thread(lambda: self._session and self._session.change(values))
+        except FluidSimError as error:
+            self._report('parameters', str(error))
+
+
+def _install_signal_handlers(node: FluidSimNode) -> None:
+    """End the loop at the first SIGINT or SIGTERM, the process at the second."""
+
+    def on_signal(number: int, frame: Any) -> None:
+        if node._ending:
+            os._exit(128 + number)
+        node.end()
+
+    signal.signal(signal.SIGINT, on_signal)
+    signal.signal(signal.SIGTERM, on_signal)
+
+
+def _autostart(node: FluidSimNode) -> None:
+    if node.trigger_configure() != TransitionCallbackReturn.SUCCESS:
+        raise FluidSimError(node.configure_error or 'configuring failed')
+    node.trigger_activate()
+
+
+def _run(node: FluidSimNode) -> None:
+    """Run node and executor; in the end stop both in an order that leaves no thread behind."""
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    thread = threading.Thread(target=spin, name='executor')
+    _install_signal_handlers(node)
+    if node.get_parameter('autostart').value:
+        _autostart(node)
+    thread.start()
+    try:
+        node.run()
+    finally:
+        node.close()
+        executor.shutdown()
+        thread.join()
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run the node until it is ended; returns the process's exit code."""
+    arguments = list(sys.argv if args is None else args)
+    try:
+        parameters.check_domain()
+        parameters.check_parameter_files(arguments)
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    except FluidSimError as error:
+        return _fail(error)
+    node = None
+    try:
+        node = FluidSimNode()
+        _run(node)
+    except FluidSimError as error:
+        return _fail(error)
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.shutdown()
+    return 0
+
+
+def _fail(error: FluidSimError) -> int:
+    sys.stderr.write(f'{NODE_NAME}: error: {error}\n')
+    return 2
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,219 @@
+"""What exists while the node is configured: simulation, topics and the loop between them."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.node import Node
+
+from fluid_sim_ros.environment import whole_steps
+from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
+from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
+from fluid_sim_ros.ros.inputs import Inputs
+from fluid_sim_ros.ros.markers import VehicleMarkers
+from fluid_sim_ros.ros.outputs import Outputs
+from fluid_sim_ros.runner import (
+    Lockstep,
+    Pacing,
+    RealTime,
+    RequestQueue,
+    Runner,
+    duration_steps,
+    period_steps,
+)
+from fluid_sim_ros.simulation import Simulation
+
+#: Wall time between two publications of the present state while held in lockstep [s].
+_HOLD_PERIOD = 0.1
+_DIAGNOSTICS_PERIOD = 1.0
+#: Real-time pacing looks at its clock and its commands at least this often [Hz, simulated].
+_REALTIME_TICK_RATE = 100.0
+
+Report = Callable[[str, str], None]
+
+
+class Session:
+    """
+    A configured node's simulation and topics; every method runs in the stepping thread.
+
+    Parameters
+    ----------
+    node
+        Owner of topics.
+    settings
+        Values of the parameter table; changed in place by ``change``.
+    requests
+        Work that other threads want done.
+    graph
+        Monitor of the ROS graph.
+    report
+        Takes (key, line): a fault to log, at most once per second and key.
+
+    Raises
+    ------
+    FluidSimError
+        If the scene or a setting is wrong.
+
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        settings: dict[str, Any],
+        requests: RequestQueue,
+        graph: GraphMonitor,
+        report: Report,
+    ) -> None:
+        self._node = node
+        self._settings = settings
+        self._report = report
+        self.diverged = ''
+        self.simulation = Simulation(
+            settings['scene'],
+            seed=settings['seed'],
+            timestep=settings['timestep'] or None,
+            integrator=settings['integrator'] or None,
+            fluid=settings['fluid'] or None,
+        )
+        self._until = duration_steps(settings['duration'], self.simulation.timestep)
+        self.inputs = Inputs(node, self.simulation, settings, report)
+        self.outputs = Outputs(node, self.simulation, settings)
+        self._diagnostics = Diagnostics(node, self.simulation, self.inputs, graph)
+        self._markers = [
+            VehicleMarkers(node, self.simulation, vehicle, i)
+            for i, vehicle in enumerate(self.simulation.vehicles.values())
+        ]
+        self.simulation.enable_wind(settings['enable_wind'])
+        self.runner = Runner(
+            self.simulation, self.inputs, [self.outputs], self._pacing(), requests,
+            self._housekeeping,
+        )  # fmt: skip
+        self._diagnosed_at = self._marked_at = 0.0
+
+    def destroy(self) -> None:
+        """Remove every topic from the node."""
+        self.inputs.destroy()
+        self.outputs.destroy()
+        self._diagnostics.destroy()
+        for markers in self._markers:
+            markers.destroy(self._node)
+        self.simulation.close()
+
+    # ---- the loop --------------------------------------------------------------------------
+
+    def run(self) -> bool:
+        """Run until stopped or diverged; True when the duration of the run is over."""
+        self.runner.stopped = False
+        try:
+            self.runner.run(self._until)
+        except DivergedError as error:
+            self.diverged = str(error)
+            self._report('diverged', f'{error}; call ~/reset to go on')
+        return self.simulation.step_count >= self._until
+
+    def idle(self, requests: RequestQueue) -> None:
+        """Wait for requests while there is nothing to run, and stay visible."""
+        requests.idle()
+        self._housekeeping()
+
+    def _housekeeping(self) -> None:
+        now = time.monotonic()
+        if now - self._diagnosed_at >= _DIAGNOSTICS_PERIOD:
+            self._diagnosed_at = now
+            self._diagnostics.publish(self.runner, self.diverged)
+        if now - self._marked_at >= 1.0 / self._settings['markers.rate']:
+            self._marked_at = now
+            for markers in self._markers:
+                markers.publish_if_wanted()
+
+    def _pacing(self) -> Pacing:
+        settings, timestep = self._settings, self.simulation.timestep
+        if settings['pacing'] == 'free':
+            return Pacing()
+        if settings['pacing'] == 'realtime':
+            tick = max(1, round(1.0 / (_REALTIME_TICK_RATE * timestep)))
+            return RealTime(factor=settings['realtime.factor'], tick=tick)
+        self.inputs.check_awaited()
+        period = whole_steps(settings['lockstep.period'], timestep, "parameter 'lockstep.period'")
+        odometry = period_steps(settings['odom.rate'], timestep, "parameter 'odom.rate'")
+        if period % odometry:
+            raise ConfigError(
+                f"parameter 'lockstep.period': {settings['lockstep.period']:g} s is not a "
+                f"multiple of the odometry period {1 / settings['odom.rate']:g} s, so some states "
+                'that must be answered would not be published'
+            )
+        rule = settings['lockstep.on_timeout']
+        on_timeout = {'hold': self._hold, 'continue': self._go_on, 'stop': self._give_up}[rule]
+        patience = _HOLD_PERIOD if rule == 'hold' else settings['lockstep.timeout']
+        return Lockstep(period=period, on_timeout=on_timeout, patience=patience)
+
+    def _hold(self, simulation: Simulation) -> bool:
+        self.outputs.repeat(simulation)
+        return False
+
+    def _go_on(self, simulation: Simulation) -> bool:
+        self._report('lockstep', self._no_answer() + ': going on, not deterministic')
+        return True
+
+    def _give_up(self, simulation: Simulation) -> bool:
+        raise FluidSimError(self._no_answer() + ": stopped, as 'lockstep.on_timeout' says")
+
+    def _no_answer(self) -> str:
+        topics = ', '.join(self.inputs.awaited())
+        return f'no answer on {topics} within {self._settings["lockstep.timeout"]:g} s'
+
+    # ---- requests --------------------------------------------------------------------------
+
+    def reset(self) -> str:
+        """Go back to the keyframe at time 0; return what to tell the caller."""
+        self.simulation.reset(self._settings['reset.keyframe'] or None)
+        self.simulation.enable_wind(self._settings['enable_wind'])
+        self.diverged = ''
+        self.inputs.forget()
+        self.runner.restart()
+        return self._time()
+
+    def pause(self, paused: bool) -> str:
+        """Pause or go on."""
+        self._check_alive()
+        self.runner.paused = paused
+        return self._time()
+
+    def step(self) -> str:
+        """Take ``step_count`` steps while paused."""
+        self._check_alive()
+        if not self.runner.paused:
+            raise CommandError('not paused; call ~/pause with true first')
+        left = self._until - self.simulation.step_count
+        self.runner.advance_paused(min(self._settings['step_count'], left))
+        return self._time()
+
+    def enable_wind(self, enabled: bool) -> str:
+        """Switch wind and current on or off."""
+        self._settings['enable_wind'] = enabled
+        self.simulation.enable_wind(enabled)
+        return self._time()
+
+    def change(self, values: dict[str, Any]) -> None:
+        """Take over live parameters; a pacing that cannot be leaves the old one in place."""
+        before = dict(self._settings)
+        self._settings.update(values)
+        try:
+            if values.keys() & {'pacing', 'realtime.factor'}:
+                self.runner.pacing = self._pacing()
+                self.runner.pacing.begin(self.simulation)
+                self.inputs.forget()
+            if 'enable_wind' in values:
+                self.simulation.enable_wind(values['enable_wind'])
+        except FluidSimError:
+            self._settings.update(before)
+            raise
+
+    def _check_alive(self) -> None:
+        if self.diverged:
+            raise CommandError(f'{self.diverged}; call ~/reset first')
+
+    def _time(self) -> str:
+        return f'time {self.simulation.time:.9f} s, step {self.simulation.step_count}'
+
+
