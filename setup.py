@@ -1,11 +1,11 @@
 """Package metadata and the build of the MuJoCo plugin library (pip and colcon both read this)."""
 
 import os
+import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
-from glob import glob
+from concurrent.futures import ThreadPoolExecutor
 from importlib import metadata, util
 from pathlib import Path
 
@@ -13,8 +13,14 @@ from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
 
 PACKAGE = 'fluid_sim_ros'
+DESCRIPTION = 'ROS 2 node: MuJoCo with fluid forces for aerial and underwater vehicles'
 MUJOCO_VERSION = '4.0.0'
 PLUGIN_LIBRARY = f'{PACKAGE}.plugins.libfluid_sim'
+# No contraction to fused multiply-add: results must not depend on the processor.
+COMPILE_FLAGS = [
+    '-std=c++17', '-O2', '-fPIC', '-fvisibility=hidden', '-ffp-contract=off',
+    '-Wall', '-Wextra', '-Wno-unused-parameter',
+]  # fmt: skip
 
 
 def fail(line):
@@ -24,32 +30,34 @@ def fail(line):
 
 def mujoco_folder():
     """Return the folder of the installed mujoco wheel (headers and library)."""
+    wanted = f'type: {sys.executable} -m pip install mujoco=={MUJOCO_VERSION}'
     spec = util.find_spec('mujoco')
     if spec is None or not spec.submodule_search_locations:
-        fail(f'mujoco is not installed here; type: {sys.executable} -m pip install mujoco=={MUJOCO_VERSION}')
+        fail(f'mujoco is not installed here; {wanted}')
     found = metadata.version('mujoco')
     if found != MUJOCO_VERSION:
-        fail(f'mujoco {found} is installed, but this release is built for {MUJOCO_VERSION}; '
-             f'type: {sys.executable} -m pip install mujoco=={MUJOCO_VERSION}')
+        fail(f'mujoco {found} is installed, but this release needs {MUJOCO_VERSION}; {wanted}')
     return Path(spec.submodule_search_locations[0])
 
 
 def find_compiler():
-    """Return the C++ compiler that handles C++17, or end with one line."""
-    tried = [os.environ['CXX'].split()[0]] if os.environ.get('CXX') else ['c++', 'g++', 'clang++']
-    for name in tried:
-        path = shutil.which(name)
-        if path is None:
+    """Return the command of a compiler that handles C++17, or end with one line."""
+    chosen = shlex.split(os.environ.get('CXX', ''))
+    tried = [chosen] if chosen else [['c++'], ['g++'], ['clang++']]
+    probe = '#include <optional>\nstatic_assert(__cplusplus >= 201703L);\n'
+    for command in tried:
+        if shutil.which(command[0]) is None:
             continue
-        with tempfile.TemporaryDirectory() as folder:
-            probe = Path(folder) / 'probe.cc'
-            probe.write_text('#include <optional>\nstatic_assert(__cplusplus >= 201703L);\n')
-            done = subprocess.run([path, '-std=c++17', '-fsyntax-only', str(probe)],
-                                  capture_output=True, check=False)
+        done = subprocess.run(
+            [*command, '-std=c++17', '-fsyntax-only', '-x', 'c++', '-'],
+            input=probe, text=True, capture_output=True, check=False,
+        )  # fmt: skip
         if done.returncode == 0:
-            return path
-    return fail(f'no C++17 compiler found (tried: {", ".join(tried)}); '
-                'install one (Debian/Ubuntu: apt-get install g++) or set CXX')
+            return command
+    return fail(
+        f'no C++17 compiler found (tried: {", ".join(map(shlex.join, tried))}); '
+        'install one (Debian, Ubuntu: apt-get install g++) or set CXX'
+    )
 
 
 class BuildPluginLibrary(build_ext):
@@ -58,24 +66,42 @@ class BuildPluginLibrary(build_ext):
     def get_ext_filename(self, fullname):
         return str(Path(*fullname.split('.'))) + '.so'
 
-    def get_export_symbols(self, ext):
-        return ext.export_symbols
-
     def build_extension(self, ext):
         mujoco = mujoco_folder()
         library = mujoco / f'libmujoco.so.{MUJOCO_VERSION}'
+        if not library.exists():
+            fail(f'{library.name} is not in {mujoco}; only Linux wheels of mujoco are supported')
+        compiler = find_compiler()
+        objects = Path(self.build_temp) / 'plugins'
+        objects.mkdir(parents=True, exist_ok=True)
+
+        def compile_one(source):
+            target = objects / f'{Path(source).stem}.o'
+            run_compiler([*compiler, *COMPILE_FLAGS, f'-I{mujoco / "include"}',
+                          '-c', source, '-o', str(target)])  # fmt: skip
+            return str(target)
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            linked = list(pool.map(compile_one, sorted(ext.sources)))
         output = Path(self.get_ext_fullpath(ext.name))
         output.parent.mkdir(parents=True, exist_ok=True)
-        command = [
-            find_compiler(), '-std=c++17', '-O2', '-fPIC', '-shared', '-fvisibility=hidden',
-            '-ffp-contract=off', '-Wall', '-Wextra', '-Wno-unused-parameter',
-            f'-I{mujoco / "include"}', *sorted(ext.sources),
-            str(library), f'-Wl,-rpath,{mujoco}', '-Wl,-rpath,$ORIGIN/../../mujoco',
-            '-o', str(output),
-        ]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode:
-            fail('the plugin library does not compile:\n' + done.stderr)
+        # The first search path serves an installed package (mujoco stands beside it), the second
+        # an editable or colcon install. Inside Python the library is loaded already.
+        run_compiler([*compiler, '-shared', *linked, str(library),
+                      '-Wl,-rpath,$ORIGIN/../../mujoco', f'-Wl,-rpath,{mujoco}',
+                      '-o', str(output)])  # fmt: skip
+
+
+def run_compiler(command):
+    """Run one compiler command; show what it said only when it fails."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        fail(f'the plugin library does not compile:\n{done.stderr}')
+
+
+def plugin_files(suffix):
+    """Return the plugin library's source files with one suffix."""
+    return sorted(str(path) for path in Path(PACKAGE, 'plugins', 'src').glob(f'*{suffix}'))
 
 
 def data(folder):
@@ -87,15 +113,30 @@ def data(folder):
     return sorted(pairs.items())
 
 
+# Tested ranges. The ROS wheels (x86_64 only) are not needed where ROS 2 Jazzy is installed.
 ROS = ['ros-jazzy-rclpy[fastrtps]>=7.1,<8', 'ros-jazzy-common-interfaces>=5.3,<6']
+MAVLINK = ['pymavlink>=2.4.41,<3']
+RECORD = ['mcap>=1.2,<2']
 CHARTS = ['matplotlib>=3.8,<4']
-TEST = ['pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7']
+TEST = [
+    *CHARTS,
+    'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
+]  # fmt: skip
+# colcon from PyPI in the smallest set that builds, tests and reports an ament_python package.
+DEV = [
+    # Formatters and checkers change their mind with each minor version.
+    'ruff>=0.17,<0.18', 'mypy>=2.4,<2.5', 'clang-format>=23,<24',
+    'colcon-core>=0.18,<1', 'colcon-ros>=0.5,<1', 'colcon-python-setup-py>=0.2.9,<1',
+    'colcon-package-information>=0.4,<1', 'colcon-library-path>=0.2.1,<1',
+    'colcon-defaults>=0.2.8,<1', 'colcon-output>=0.2.13,<1', 'colcon-test-result>=0.3.8,<1',
+    'colcon-bash>=0.5,<1',
+]  # fmt: skip
 
 setup(
     name=PACKAGE,
     version='0.1.0',
-    description='ROS 2 node that steps MuJoCo with fluid forces for aerial and underwater vehicles',
-    long_description=Path('README.md').read_text(encoding='utf-8') if Path('README.md').exists() else '',
+    description=DESCRIPTION,
+    long_description=Path('README.md').read_text(encoding='utf-8'),
     long_description_content_type='text/markdown',
     maintainer='fluid_sim_ros maintainers',
     maintainer_email='fluid_sim_ros@example.com',
@@ -103,8 +144,7 @@ setup(
     python_requires='>=3.11,<3.13',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     package_data={PACKAGE: ['py.typed']},
-    ext_modules=[Extension(PLUGIN_LIBRARY, glob(f'{PACKAGE}/plugins/src/*.cc'),
-                           depends=glob(f'{PACKAGE}/plugins/src/*.h'))],
+    ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
     cmdclass={'build_ext': BuildPluginLibrary},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
@@ -121,11 +161,11 @@ setup(
     ],
     extras_require={
         'ros': ROS,
-        'mavlink': ['pymavlink>=2.4.41,<3'],
-        'record': ['mcap>=1.2,<2'],
+        'mavlink': MAVLINK,
+        'record': RECORD,
         'charts': CHARTS,
-        'test': [*TEST, *CHARTS],
-        'dev': ['ruff>=0.6,<1', 'mypy>=1.11,<3', 'clang-format>=18,<23', 'colcon-common-extensions'],
+        'test': TEST,
+        'dev': DEV,
     },
     entry_points={
         'console_scripts': [

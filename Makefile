@@ -1,0 +1,56 @@
+# Each target sets up .venv on first use (see .ci/venv). PYTHON=python3.12 chooses the interpreter.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help demo test test-full bench lint format docs clean setup-demo setup-test setup-dev
+
+BIN := .venv/bin
+# Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
+export ROS_AUTOMATIC_DISCOVERY_RANGE ?= LOCALHOST
+# The tests run two at a time; more threads inside numpy would only get in each other's way.
+PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q --numprocesses 2 \
+	--dist loadfile
+
+help:
+	@echo 'make demo       quadrotor in a gust: simulator and controller over ROS 2; writes out/demo/'
+	@echo 'make test       the tests; ARGS="-k rov" chooses some'
+	@echo 'make test-full  the tests with their large volumes, then the benchmarks into benchmarks/results/'
+	@echo 'make bench      the benchmarks, short runs into out/bench/ (FULL=1: as in test-full)'
+	@echo 'make lint       ruff, mypy, clang-format (make format: let them rewrite the files)'
+	@echo 'make docs       links and pictures of README.md and doc/'
+	@echo 'make clean      remove what was built (.venv stays; rm -r .venv removes that)'
+
+setup-demo setup-test setup-dev: setup-%:
+	@.ci/venv $*
+
+demo: setup-demo
+	@$(BIN)/fluid_sim demo
+
+test: setup-test
+	@$(PYTEST) $(ARGS)
+
+test-full: setup-test
+	@FLUID_SIM_FULL=1 $(PYTEST) -m 'full or not full'
+	@.ci/bench full
+
+bench: setup-test
+	@.ci/bench $(if $(FULL),full,quick)
+
+lint: setup-dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run -Werror fluid_sim_ros/plugins/src/*.cc fluid_sim_ros/plugins/src/*.h
+
+format: setup-dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i fluid_sim_ros/plugins/src/*.cc fluid_sim_ros/plugins/src/*.h
+
+docs: setup-demo
+	@$(BIN)/python .ci/check_docs.py
+
+clean:
+	rm -rf build install log dist out *.egg-info .pytest_cache .hypothesis .mypy_cache .ruff_cache
+	rm -f fluid_sim_ros/plugins/libfluid_sim.so MUJOCO_LOG.TXT
+	find . -path ./.venv -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
