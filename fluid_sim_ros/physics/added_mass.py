@@ -165,6 +165,13 @@ def frd_to_flu_matrix(matrix_frd: ArrayLike) -> Array:
     return np.asarray(matrix_frd, dtype=np.float64) * np.outer(_FLIP, _FLIP)
 
 
+def momentum(matrix: ArrayLike, v: Array, omega: Array) -> tuple[Array, Array]:
+    """Return (p, l) = A (v, omega), the impulse of the fluid, shape (..., 3) each."""
+    both = np.concatenate(np.broadcast_arrays(v, omega), axis=-1)
+    product = (np.asarray(matrix, dtype=np.float64) @ both[..., np.newaxis])[..., 0]
+    return product[..., :3], product[..., 3:]
+
+
 def added_mass_coriolis(matrix: ArrayLike, v_rel_b: ArrayLike, omega_b: ArrayLike) -> Wrench:
     """
     Return the velocity-dependent wrench -C_A(nu) nu of a full added-mass (or mass) matrix.
@@ -186,7 +193,7 @@ def added_mass_coriolis(matrix: ArrayLike, v_rel_b: ArrayLike, omega_b: ArrayLik
 
     """
     v, omega = vectors(v_rel_b, 'v_rel_b'), vectors(omega_b, 'omega_b')
-    linear, angular = _momentum(matrix, v, omega)
+    linear, angular = momentum(matrix, v, omega)
     return np.cross(linear, omega), np.cross(linear, v) + np.cross(angular, omega)
 
 
@@ -204,7 +211,7 @@ def added_mass_wrench(
     of the components of v_rel_b and omega_b in the body frame (`relative_acceleration`).
     """
     force, torque = added_mass_coriolis(matrix, v_rel_b, omega_b)
-    linear, angular = _momentum(
+    linear, angular = momentum(
         matrix, vectors(v_dot_b, 'v_dot_b'), vectors(omega_dot_b, 'omega_dot_b')
     )
     return force - linear, torque - angular
@@ -247,13 +254,6 @@ def accelerating_flow_wrench(
 
     """
     accel = vectors(flow_accel_b, 'flow_accel_b')
-    linear, angular = _momentum(matrix, accel, np.zeros_like(accel))
+    linear, angular = momentum(matrix, accel, np.zeros_like(accel))
     pressure = column(displaced_mass) * accel
     return linear + pressure, angular + np.cross(vectors(center_b, 'center_b'), pressure)
-
-
-def _momentum(matrix: ArrayLike, v: Array, omega: Array) -> tuple[Array, Array]:
-    """Return A (v, omega) as its linear and angular parts, shape (..., 3) each."""
-    both = np.concatenate(np.broadcast_arrays(v, omega), axis=-1)
-    product = (np.asarray(matrix, dtype=np.float64) @ both[..., np.newaxis])[..., 0]
-    return product[..., :3], product[..., 3:]

@@ -26,7 +26,7 @@ from fluid_sim_ros.physics.projection import (
 Area = Literal['lemma', 'true']
 
 
-def _shadow(axes: ArrayLike, v_rel_b: Array, area: Area) -> Array:
+def drag_area(axes: ArrayLike, v_rel_b: Array, area: Area) -> Array:
     """Return the projected area that the drag uses [m^2], shape (...)."""
     match area:
         case 'lemma':
@@ -72,7 +72,7 @@ def blunt_slender_drag(
     """
     v = vectors(v_rel_b, 'v_rel_b')
     rho = not_negative(density, 'density [kg/m^3]')
-    shadow = _shadow(axes, v, area)
+    shadow = drag_area(axes, v, area)
     # Never negative but by rounding, which the maximum takes off so that drag never pushes.
     rest = np.maximum(max_projected_area(axes) - shadow, 0.0)
     reference = np.asarray(c_blunt) * shadow + np.asarray(c_slender) * rest

@@ -1,0 +1,123 @@
+"""
+Vehicle damping in Fossen's form, and its secant matrix for semi-implicit stepping.
+
+Fossen (2021), Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed., ch. 6 and 8.
+nu = (v_rel, omega), body axes; D is positive for damping (D = -X_u of ship theory).
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.added_mass import matrix6
+from fluid_sim_ros.physics.arrays import Array, vectors
+
+
+class CrossTerm(NamedTuple):
+    """One term f_row -= coef |nu_abs| nu_lin; rows and velocities count x y z p q r from 0."""
+
+    row: int
+    abs_index: int
+    lin_index: int
+    coef: float
+
+
+def linear_damping_matrix(values: ArrayLike, name: str = 'linear_damping') -> Array:
+    """
+    Return D_lin from 6 or 36 numbers, row by row [N s/m], [N s], [N m s].
+
+    Raises
+    ------
+    ConfigError
+        If the symmetric part is not positive semi-definite: the body would gain energy.
+
+    """
+    matrix = _square(values, name)
+    lowest = float(np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0])
+    if lowest < -1e-9 * np.abs(matrix).max():
+        raise ConfigError(f'{name}: lowest eigenvalue {lowest:.6g}; allowed: >= 0')
+    return matrix
+
+
+def quadratic_damping_matrix(values: ArrayLike, name: str = 'quadratic_damping') -> Array:
+    """
+    Return D_q from 6 or 36 numbers, row by row; entry (i, j) multiplies |nu_j| nu_j.
+
+    Raises
+    ------
+    ConfigError
+        If a diagonal entry is negative. Off the diagonal any sign is allowed (published sets have
+        both); whether such a set dissipates at all velocities is for its author to know.
+
+    """
+    matrix = _square(values, name)
+    if np.any(np.diag(matrix) < 0):
+        raise ConfigError(f'{name}: diagonal {np.diag(matrix).tolist()}; allowed: >= 0')
+    return matrix
+
+
+def _square(values: ArrayLike, name: str) -> Array:
+    count = np.asarray(values).size
+    if count not in (6, 36):
+        raise ConfigError(f'{name}: {count} numbers; allowed: 6 or 36')
+    return matrix6(values, name)
+
+
+def damping_wrench(d_linear: ArrayLike, d_quadratic: ArrayLike, nu: ArrayLike) -> Array:
+    """
+    Return -D_lin nu - D_q (|nu| o nu), o element-wise.
+
+    Odd in nu; dissipates when D_lin is positive semi-definite and D_q diagonal.
+
+    Parameters
+    ----------
+    d_linear, d_quadratic
+        Shape (..., 6, 6).
+    nu
+        Velocity relative to the medium and angular velocity, body axes, shape (..., 6).
+
+    Returns
+    -------
+    Force [N] and torque [N m] about the reference point, shape (..., 6).
+
+    """
+    nu = vectors(nu, 'nu', 6)
+    linear = np.asarray(d_linear, dtype=np.float64) @ nu[..., np.newaxis]
+    quadratic = np.asarray(d_quadratic, dtype=np.float64) @ (np.abs(nu) * nu)[..., np.newaxis]
+    return -(linear + quadratic)[..., 0]
+
+
+def cross_damping_wrench(terms: Sequence[CrossTerm], nu: ArrayLike) -> Array:
+    """
+    Return the sum of -coef |nu_a| nu_b into each row, for terms such as Y_|v|r or N_|v|r.
+
+    Odd in nu. Not dissipative in general: fitted coefficients. Shapes as in `damping_wrench`.
+    """
+    nu = vectors(nu, 'nu', 6)
+    wrench = np.zeros_like(nu)
+    for term in terms:
+        product = np.abs(nu[..., term.abs_index]) * nu[..., term.lin_index]
+        wrench[..., term.row] -= term.coef * product
+    return wrench
+
+
+def secant_damping(d_linear: ArrayLike, d_quadratic: ArrayLike, nu: ArrayLike) -> Array:
+    """
+    Return D_s, the symmetric positive semi-definite part of D_lin + D_q diag(|nu|).
+
+    M + h D_s as effective mass makes a first-order step of damping unconditionally stable, and
+    exact in form for pure quadratic drag (v' = v/(1 + h D |v|/m)). The symmetric part keeps the
+    power, nu . D_s nu >= nu . D nu; negative eigenvalues are set to 0 (never less damping).
+
+    Parameters and shapes as in `damping_wrench`; returns shape (..., 6, 6).
+    """
+    nu = vectors(nu, 'nu', 6)
+    scaled = np.asarray(d_quadratic, dtype=np.float64) * np.abs(nu)[..., np.newaxis, :]
+    matrix = np.asarray(d_linear, dtype=np.float64) + scaled
+    values, basis = np.linalg.eigh(0.5 * (matrix + np.swapaxes(matrix, -1, -2)))
+    kept = np.maximum(values, 0.0)
+    secant: Array = (basis * kept[..., np.newaxis, :]) @ np.swapaxes(basis, -1, -2)
+    return secant
