@@ -202,3 +202,12 @@ def test_engine_quadrature_of_kappa_degrades_with_aspect_ratio():
         exact = kappa.ellipsoid_added_mass(axes, 1.0)[0]
         errors.append(np.abs(model.geom_fluid[0, 6:9] / exact - 1).max())
     assert errors[0] < 1e-6 < 1e-4 < errors[1] < 1e-3 < 0.1 < errors[2] < 0.15
+
+
+def test_seed_text_is_off_over_random_bodies():
+    found = fluid_terms.measure(100, (fluid_terms.seed_text_case,))
+    assert found['added_mass_torque_general_form'] == pytest.approx(np.full(100, 2.0), abs=1e-3)
+    assert np.median(found['drag_maximal_area']) > 0.1
+    assert 0.3 < found['angular_drag_power_is_positive'].mean() < 0.7
+    assert np.median(found['angular_drag_dot_product']) > 0.5
+    assert found['viscosity_kinematic_factor'].max() > 100

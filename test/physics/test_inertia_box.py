@@ -34,8 +34,8 @@ def test_drag_closed_form():
 
 
 def test_drag_torque_is_the_integral_over_the_faces():
-    # A strip at distance y on a face normal to x... moves at w y: pressure 1/2 Cd rho (w y)^2 with
-    # the same pressure coefficient as the force, f = 2 rho r_j r_k v^2 = 1/2 rho area v^2.
+    # A strip of a face at distance y from the axis moves at w y and bears the pressure of the
+    # translational law, f = 2 rho r_j r_k v^2 = 1/2 rho area v^2.
     half, omega, rho = np.array([0.3, 0.5, 0.7]), 2.0, 3.0
     y = (np.arange(20000) + 0.5) / 20000 * half[1]
     z = (np.arange(20000) + 0.5) / 20000 * half[2]
