@@ -212,12 +212,18 @@ def measure(
 
 
 def commit_hash() -> str:
-    """Return the commit that was measured, or ``unknown`` outside a git tree."""
-    command = ['git', 'describe', '--always', '--dirty', '--abbrev=12']
-    found = subprocess.run(
-        command, cwd=Path(__file__).parent, capture_output=True, text=True, check=False
-    )
-    return found.stdout.strip() or 'unknown'
+    """Return the commit that was measured, marked when the measured files differ from it."""
+    root = Path(__file__).parents[1]
+
+    def git(*words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            ['git', *words], cwd=root, capture_output=True, text=True, check=False
+        )
+
+    head = git('rev-parse', '--short=12', 'HEAD').stdout.strip()
+    measured = ('fluid_sim_ros/physics', 'benchmarks/fluid_terms.py')
+    changed = head and git('diff', '--quiet', 'HEAD', '--', *measured).returncode
+    return (head or 'unknown') + ('-dirty' if changed else '')
 
 
 def main() -> None:
