@@ -125,7 +125,7 @@ TEST = [
 # colcon from PyPI in the smallest set that builds, tests and reports an ament_python package.
 DEV = [
     # Formatters and checkers change their mind with each minor version.
-    'ruff>=0.17,<0.18', 'mypy>=2.4,<2.5', 'clang-format>=23,<24',
+    'ruff>=0.17,<0.18', 'mypy>=2.4,<2.5', 'clang-format>=23,<24', 'types-PyYAML>=6.0.12,<7',
     'colcon-core>=0.18,<1', 'colcon-ros>=0.5,<1', 'colcon-python-setup-py>=0.2.9,<1',
     'colcon-package-information>=0.4,<1', 'colcon-library-path>=0.2.1,<1',
     'colcon-defaults>=0.2.8,<1', 'colcon-output>=0.2.13,<1', 'colcon-test-result>=0.3.8,<1',
@@ -149,7 +149,9 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),
-        *data('config'), *data('models'), *data('launch'),
+        *data('config'),
+        *data('models'),
+        *data('launch'),
     ],
     install_requires=[
         f'mujoco=={MUJOCO_VERSION}',

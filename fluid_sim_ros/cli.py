@@ -1,0 +1,176 @@
+"""
+The ``fluid_sim`` command.
+
+Each subcommand imports what it needs when it runs, so that ``fluid_sim --help`` is instant.
+Exit codes: 0, 1 (the simulation diverged, or the doctor found a fault), 2 (wrong input).
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from fluid_sim_ros import __version__
+from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+DIVERGED = 1
+WRONG_INPUT = 2
+#: Exit code of a command ended by SIGINT, as shells have it (128 + signal number).
+INTERRUPTED = 130
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser that takes no abbreviated options, and whose errors are one line."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(allow_abbrev=False, **settings)
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(WRONG_INPUT, f'{self.prog}: error: {message} (see {self.prog} --help)\n')
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit code."""
+    parser = _build_parser()
+    arguments, rest = parser.parse_known_args(argv)
+    if rest and arguments.command != 'demo':
+        parser.error(f'unknown arguments: {" ".join(rest)}')
+    try:
+        if arguments.command == 'demo':
+            return _demo(rest)
+        code: int = arguments.function(arguments)
+    except DivergedError as error:
+        return _fail(error, DIVERGED)
+    except FluidSimError as error:
+        return _fail(error, WRONG_INPUT)
+    except KeyboardInterrupt:
+        return _fail('interrupted', INTERRUPTED)
+    return code
+
+
+def _fail(reason: object, code: int) -> int:
+    sys.stderr.write(f'fluid_sim: {reason}\n')
+    return code
+
+
+def _build_parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog='fluid_sim',
+        description='MuJoCo with fluid forces for aerial and underwater vehicles.',
+    )
+    parser.add_argument('--version', action='version', version=f'fluid_sim_ros {__version__}')
+    commands = parser.add_subparsers(dest='command', required=True, metavar='COMMAND')
+    json_help = 'also write the result as JSON; - is standard output'
+
+    run = commands.add_parser('run', help='run a scene without ROS')
+    run.add_argument('scene', metavar='SCENE', help='name (fluid_sim scenes) or MJCF or YAML file')
+    run.add_argument('--duration', type=float, metavar='S', help='simulated time [s]')
+    run.add_argument('--timestep', type=float, metavar='S', help="replaces the model's [s]")
+    run.add_argument('--integrator', metavar='NAME', help='Euler, RK4, implicit, implicitfast')
+    run.add_argument('--fluid', metavar='MODEL', help='force none, inertia or ellipsoid')
+    run.add_argument('--seed', type=int, default=0, help='of everything random (default 0)')
+    for medium in ('wind', 'current'):
+        run.add_argument(
+            f'--{medium}', type=float, nargs=3, metavar=('X', 'Y', 'Z'),
+            help=f'velocity of the {medium} from the start [m/s], east north up',
+        )  # fmt: skip
+    run.add_argument('--pacing', choices=('free', 'realtime'), default='free')
+    run.add_argument('--json', metavar='PATH', help=json_help)
+    run.set_defaults(function=_run)
+
+    scenes = commands.add_parser('scenes', help='list the scenes')
+    scenes.add_argument('--json', metavar='PATH', help=json_help)
+    scenes.set_defaults(function=_scenes)
+
+    commands.add_parser(
+        'demo', add_help=False, help='quadrotor in a gust: simulator and controller over ROS 2'
+    )
+
+    doctor = commands.add_parser('doctor', help='what is installed, what is missing, what to type')
+    doctor.add_argument('--json', metavar='PATH', help=json_help)
+    doctor.set_defaults(function=_doctor)
+    return parser
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    from fluid_sim_ros.headless import run_scene, summary_table
+
+    result = run_scene(
+        arguments.scene,
+        duration=arguments.duration,
+        timestep=arguments.timestep,
+        integrator=arguments.integrator,
+        fluid=arguments.fluid,
+        seed=arguments.seed,
+        wind=arguments.wind,
+        current=arguments.current,
+        realtime=arguments.pacing == 'realtime',
+    )
+    _show(arguments.json, summary_table(result), result)
+    return 0
+
+
+def _scenes(arguments: argparse.Namespace) -> int:
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.scene import Scene, scene_names
+
+    table = Table('scene', 'medium', 'description', title='Scenes')
+    rows = []
+    for name in scene_names():
+        scene = Scene.load(name)
+        rows.append({'name': name, 'medium': scene.medium, 'description': scene.description})
+        table.add_row(name, scene.medium or '', escape(scene.description))
+    _show(arguments.json, table, rows)
+    return 0
+
+
+def _demo(rest: Sequence[str]) -> int:
+    try:
+        from fluid_sim_ros.ros import demo
+    except ModuleNotFoundError as error:
+        raise MissingExtraError(
+            f'the demo needs {error.name}, which is not installed; '
+            'fluid_sim doctor says what to type'
+        ) from None
+    return int(demo.main(rest) or 0)
+
+
+def _doctor(arguments: argparse.Namespace) -> int:
+    from fluid_sim_ros import doctor
+
+    rows = doctor.examine()
+    _show(arguments.json, doctor.table(rows), [row.as_dict() for row in rows])
+    return 0 if doctor.works(rows) else 1
+
+
+def _show(json_path: str | None, table: Any, result: object) -> None:
+    """Print the table, and write the result as JSON where it was asked for."""
+    if json_path is None:
+        _console().print(table)
+        return
+    text = json.dumps(result, indent=2, allow_nan=False) + '\n'
+    if json_path == '-':
+        sys.stdout.write(text)
+        return
+    try:
+        Path(json_path).write_text(text, encoding='utf-8')
+    except OSError as error:
+        raise ConfigError(f'--json {json_path}: cannot be written ({error.strerror})') from None
+    _console().print(table)
+
+
+def _console() -> 'Console':
+    from rich.console import Console
+
+    return Console()
+
+
+if __name__ == '__main__':
+    sys.exit(main())
