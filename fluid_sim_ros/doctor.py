@@ -12,7 +12,7 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from importlib import import_module, metadata, util
+from importlib import metadata, util
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -64,7 +64,8 @@ class Row:
 def examine() -> list[Row]:
     """Run every check."""
     base = [_python(), _mujoco(), _plugin_library(), _data(), _compiler()]
-    ros = [_ros(), _messages(), _domain(), _discovery(), _shared_memory()]
+    rclpy = _ros()
+    ros = [rclpy, _messages(), _domain(rclpy.state), _discovery(), _shared_memory()]
     return base + ros + [_rendering(), *map(_extra, EXTRAS), _test_tools(), _developer_tools()]
 
 
@@ -186,11 +187,11 @@ def _messages() -> Row:
     return Row('ROS messages', 'ok', f'{len(MESSAGES)} packages')
 
 
-def _domain() -> Row:
+def _domain(rclpy: State) -> Row:
     name = 'ROS_DOMAIN_ID'
     value = os.environ.get(name, '')
-    if util.find_spec('rclpy') is None:
-        return Row(name, 'absent', value or 'not set', 'first install ROS 2')
+    if rclpy != 'ok':  # the check comes with the node, and a broken rclpy ends the process
+        return Row(name, 'absent', value or 'not set', 'first mend ROS 2')
     from fluid_sim_ros.ros.parameters import check_domain
 
     try:
