@@ -1,0 +1,70 @@
+"""
+The simulator, and optionally one of the example controllers, on an installed ROS 2.
+
+ros2 launch fluid_sim_ros fluid_sim.launch.py scene:=quadrotor controller:=quad_controller
+"""
+
+import os
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, SetEnvironmentVariable, Shutdown
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+CONTROLLERS = ('none', 'quad_controller', 'rov_controller')
+PACINGS = ('', 'realtime', 'free', 'lockstep')
+
+
+def nodes(context):
+    """Return the nodes, now that the arguments have values."""
+    values = {
+        name: LaunchConfiguration(name).perform(context)
+        for name in ('scene', 'pacing', 'controller', 'namespace', 'params_file')
+    }
+    # An argument that is not given leaves the word to the file, and the file to the node.
+    files = [values['params_file']] if values['params_file'] else []
+    scene = {'scene': values['scene']} if values['scene'] else {}
+    pacing = {'pacing': values['pacing']} if values['pacing'] else {}
+    common = {
+        'package': 'fluid_sim_ros',
+        'namespace': values['namespace'] or None,
+        'output': 'screen',
+    }
+    simulator = Node(
+        executable='fluid_sim_node',
+        parameters=[*files, scene | pacing],
+        # the controllers have nothing to do without it
+        on_exit=Shutdown(reason='the simulator ended'),
+        **common,
+    )
+    if values['controller'] == 'none':
+        return [simulator]
+    controller = Node(executable=values['controller'], parameters=[*files, scene], **common)
+    return [simulator, controller]
+
+
+def generate_launch_description():
+    arguments = [
+        DeclareLaunchArgument(
+            'scene', default_value='', description='name, or path of a scene YAML or MJCF file'
+        ),
+        DeclareLaunchArgument(
+            'pacing', default_value='', choices=PACINGS, description='how fast time passes'
+        ),
+        DeclareLaunchArgument(
+            'controller', default_value='none', choices=CONTROLLERS, description='who commands'
+        ),
+        DeclareLaunchArgument('namespace', default_value='', description='before every topic'),
+        DeclareLaunchArgument(
+            'params_file', default_value='', description='YAML file of flat ROS parameters'
+        ),
+    ]
+    # Nothing leaves this host unless the user opened it.
+    reach = os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    return LaunchDescription(
+        [
+            SetEnvironmentVariable('ROS_AUTOMATIC_DISCOVERY_RANGE', reach),
+            *arguments,
+            OpaqueFunction(function=nodes),
+        ]
+    )

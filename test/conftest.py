@@ -1,0 +1,69 @@
+"""Shared by all tests: nothing leaves this host, and no two ROS tests share a DDS domain."""
+
+import fcntl
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+
+import pytest
+
+#: Domains that tests use; their UDP ports stay below the ephemeral ports of Linux.
+DOMAINS = range(1, 101)
+_LOCKS = Path(tempfile.gettempdir()) / f'fluid_sim_ros_test_domains_{os.getuid()}'
+_turn = count()
+
+
+@contextmanager
+def _own_domain() -> Iterator[int]:
+    """
+    Hold a domain that no other test process on this host holds.
+
+    Start points differ per process and per turn, so that a domain rests before it is used again;
+    a lock file keeps two runs of the tests apart.
+    """
+    _LOCKS.mkdir(exist_ok=True)
+    worker = int(os.environ.get('PYTEST_XDIST_WORKER', 'gw0')[2:])
+    start = os.getpid() + 37 * worker + next(_turn)
+    for i in range(len(DOMAINS)):
+        domain = DOMAINS[(start + i) % len(DOMAINS)]
+        with (_LOCKS / str(domain)).open('w') as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            yield domain
+            return
+    raise RuntimeError(f'every ROS domain from 1 to {DOMAINS[-1]} is in use by other tests')
+
+
+@contextmanager
+def _environment(**values: str) -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in values.items():
+            patch.setenv(name, value)
+        yield
+
+
+@pytest.fixture(scope='session', autouse=True)
+def _stay_on_this_host(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep discovery and logs of every test, and of the processes it starts, to themselves."""
+    logs = tmp_path_factory.mktemp('ros_log')
+    with _environment(ROS_AUTOMATIC_DISCOVERY_RANGE='LOCALHOST', ROS_LOG_DIR=str(logs)):
+        yield
+
+
+@pytest.fixture
+def ros_domain() -> Iterator[int]:
+    """Give the test, and the processes it starts, a ROS_DOMAIN_ID of their own."""
+    with _own_domain() as domain, _environment(ROS_DOMAIN_ID=str(domain)):
+        yield domain
+
+
+@pytest.fixture(scope='module')
+def ros_domain_of_module() -> Iterator[int]:
+    """As ``ros_domain``, for fixtures that serve all tests of a file."""
+    with _own_domain() as domain, _environment(ROS_DOMAIN_ID=str(domain)):
+        yield domain
