@@ -1,0 +1,122 @@
+"""Thrust allocation: a wanted wrench becomes thrusts within their limits."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fluid_sim_ros.errors import ConfigError
+
+Array = NDArray[np.float64]
+
+#: Axes of a wrench in the order of its six numbers.
+AXES = ('fx', 'fy', 'fz', 'tx', 'ty', 'tz')
+
+
+class Allocator:
+    """
+    Allocates a wrench to thrusters by the pseudo-inverse, group by group when limits bind.
+
+    Within limits u = B^+ w, the thrusts of least norm that give w (or come closest). Beyond
+    them the wrench is built up in groups of axes, the most important first; each group is scaled
+    by the largest factor in [0, 1] that keeps every thrust within its limits. So a group keeps
+    its direction, no group takes from one before it, and the limits always hold.
+    Method: prioritised direct scaling, after Durham (1993), J. Guidance 16(4).
+
+    Parameters
+    ----------
+    matrix
+        B, shape (6, n): wrench [N, N m] of each thruster at 1 N, body axes, about the centre of
+        mass.
+    limits
+        Lowest and highest thrust [N], shape (n, 2); 0 must lie within.
+    groups
+        Axes (``AXES``) by importance, for example ``(('fz',), ('tx', 'ty'), ('tz',))``. Axes that
+        stand in no group are not commanded.
+
+    Raises
+    ------
+    ConfigError
+        Shapes that do not fit, limits that exclude 0, an unknown or repeated axis.
+
+    """
+
+    def __init__(
+        self, matrix: ArrayLike, limits: ArrayLike, groups: Sequence[Sequence[str]] = (AXES,)
+    ) -> None:
+        b = np.array(matrix, dtype=float)
+        low_high = np.array(limits, dtype=float)
+        if b.ndim != 2 or b.shape[0] != 6 or b.shape[1] == 0 or not np.isfinite(b).all():
+            raise ConfigError(f'thruster matrix: shape {b.shape}; must be (6, n), n > 0, finite')
+        if low_high.shape != (b.shape[1], 2):
+            raise ConfigError(
+                f'thrust limits: shape {low_high.shape}; must be ({b.shape[1]}, 2)'
+            )
+        if not ((low_high[:, 0] <= 0).all() and (low_high[:, 1] >= 0).all()):
+            raise ConfigError('thrust limits: 0 N must lie within the limits of every thruster')
+        self.matrix = b
+        self.limits = low_high
+        self.thrusts = np.zeros(b.shape[1])
+        #: Smallest factor that a group got in the last call; 1 when nothing was cut.
+        self.scale = 1.0
+
+        columns = [self._columns(group) for group in groups]
+        used = [axis for group in columns for axis in group]
+        if len(set(used)) != len(used):
+            raise ConfigError(f'allocation groups {groups}: an axis stands twice')
+        # pseudo-inverse of the commanded rows only: an axis that nobody asks for is free to move
+        inverse = np.zeros((b.shape[1], 6))
+        inverse[:, used] = np.linalg.pinv(b[used])
+        self._inverse = inverse
+        self._groups = [(np.array(group), inverse[:, group].copy()) for group in columns]
+        self._low, self._high = low_high[:, 0].copy(), low_high[:, 1].copy()
+        self._room = np.empty(b.shape[1])
+
+    @staticmethod
+    def _columns(group: Sequence[str]) -> list[int]:
+        for axis in group:
+            if axis not in AXES:
+                raise ConfigError(f"allocation axis '{axis}'; allowed: {', '.join(AXES)}")
+        return [AXES.index(axis) for axis in group]
+
+    @property
+    def rank(self) -> int:
+        """Number of independent directions of the wrench that the thrusters reach."""
+        return int(np.linalg.matrix_rank(self.matrix))
+
+    def allocate(self, wrench_b: ArrayLike) -> Array:
+        """
+        Return the thrusts for a wrench.
+
+        Parameters
+        ----------
+        wrench_b
+            Force [N] and torque [N m] about the centre of mass, body axes, shape (6,).
+
+        Returns
+        -------
+        Thrusts [N], shape (n,); the same array at every call.
+
+        """
+        thrusts, wrench = self.thrusts, np.asarray(wrench_b, dtype=float)
+        np.dot(self._inverse, wrench, out=thrusts)
+        self.scale = 1.0
+        if (thrusts >= self._low).all() and (thrusts <= self._high).all():
+            return thrusts
+        thrusts.fill(0.0)
+        for axes, inverse in self._groups:
+            self._add(inverse @ wrench[axes])
+        return thrusts
+
+    def _add(self, wanted: Array) -> None:
+        """Add as much of ``wanted`` as the limits allow, keeping its direction."""
+        thrusts, room = self.thrusts, self._room
+        np.subtract(np.where(wanted > 0, self._high, self._low), thrusts, out=room)
+        factor = 1.0
+        for want, left in zip(wanted.tolist(), room.tolist(), strict=True):
+            # room has the sign of want, or is 0 up to rounding
+            if abs(want) > 1e-12:
+                factor = min(factor, max(0.0, left / want))
+        self.scale = min(self.scale, factor)
+        thrusts += factor * wanted
+        np.clip(thrusts, self._low, self._high, out=thrusts)  # rounding only

@@ -1,0 +1,226 @@
+"""Position control of a multirotor: position, velocity, attitude and rate loops in cascade."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.allocation import Allocator
+from fluid_sim_ros.control.plant import Plant
+from fluid_sim_ros.control.timing import StampClock
+from fluid_sim_ros.errors import ConfigError
+
+#: Roll and pitch before thrust: a vehicle that cannot tilt cannot be saved by more thrust; the
+#: thrust command itself keeps ``thrust_margin`` clear, so there is room for both. Yaw comes last.
+PRIORITY = (('fz',), ('tx', 'ty'), ('tz',))
+
+
+@dataclass(frozen=True)
+class MultirotorGains:
+    """
+    Gains and limits; chosen for the x500 at a control rate of 100 Hz, loops a factor 3 apart.
+
+    Attributes
+    ----------
+    position
+        Speed asked for per position error [1/s].
+    velocity
+        Acceleration asked for per speed error [1/s].
+    integral
+        Growth of the acceleration per speed error [1/s^2]: a steady wind leaves no error.
+    attitude
+        Rate asked for per attitude error [1/s].
+    rate
+        Angular acceleration per rate error [1/s].
+    yaw_rate
+        The same for yaw [1/s]; weaker, since reaction torque is small.
+    max_speed, max_climb
+        Largest speed asked for, horizontal and vertical [m/s].
+    max_tilt
+        Largest angle between thrust and up [rad].
+    max_rate
+        Largest rate asked for [rad/s].
+    max_integral
+        Largest acceleration of the integrator on each axis [m/s^2].
+    thrust_margin
+        Share of the total thrust that is kept for torque at both ends [-].
+
+    """
+
+    position: float = 1.2
+    velocity: float = 3.5
+    integral: float = 2.5
+    attitude: float = 9.0
+    rate: float = 25.0
+    yaw_rate: float = 8.0
+    max_speed: float = 4.0
+    max_climb: float = 2.0
+    max_tilt: float = 0.6
+    max_rate: float = 4.0
+    max_integral: float = 6.0
+    thrust_margin: float = 0.1
+
+    def __post_init__(self) -> None:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if not (math.isfinite(value) and value >= 0):
+                raise ConfigError(f"gain '{f.name}': {value}; must be finite and at least 0")
+        if self.max_tilt >= math.pi / 2:
+            raise ConfigError(f"gain 'max_tilt': {self.max_tilt}; must be below pi/2 rad")
+        if self.thrust_margin >= 0.5:
+            raise ConfigError(f"gain 'thrust_margin': {self.thrust_margin}; must be below 0.5")
+
+
+class MultirotorController:
+    """
+    Holds a position and a heading, in wind too.
+
+    v* = K_p (p* - p);  a = K_v (v* - v) + i,  di/dt = K_i (v* - v);  F = m (a + g e_z)
+    gives thrust and, with the heading, attitude (Mellinger and Kumar 2011). On SO(3)
+    w* = K_R log(R^T R_d);  torque = J K_w (w* - w) + w x J w. The integrator stands still while a
+    limit binds (anti-windup), and starts anew when time goes back.
+
+    Parameters
+    ----------
+    plant
+        Mass, inertia, thrusters.
+    gains
+        See `MultirotorGains`.
+
+    """
+
+    def __init__(self, plant: Plant, gains: MultirotorGains | None = None) -> None:
+        self.plant = plant
+        self.gains = gains or MultirotorGains()
+        self.allocator = Allocator(plant.thruster_matrix, plant.thrust_limits, PRIORITY)
+        full = float(plant.thrust_limits[:, 1] @ plant.thruster_matrix[2])
+        if full <= plant.weight:
+            raise ConfigError(
+                f'thrusters lift {full:.2f} N at most; the vehicle weighs {plant.weight:.2f} N'
+            )
+        self._lowest = self.gains.thrust_margin * full
+        self._highest = max((1.0 - self.gains.thrust_margin) * full, plant.weight)
+        self._tan_tilt = math.tan(self.gains.max_tilt)
+        self._clock = StampClock()
+        self._wrench = np.zeros(6)
+        self._integral = [0.0, 0.0, 0.0]
+        # The error to integrate at the next state: so a repeated state changes nothing.
+        self._pending = [0.0, 0.0, 0.0]
+
+    @property
+    def restarted(self) -> bool:
+        """True when the last step saw time go back, or was the first."""
+        return self._clock.restarted
+
+    @property
+    def integral_w(self) -> tuple[float, float, float]:
+        """Acceleration that the integrator holds against wind [m/s^2], world axes."""
+        return (self._integral[0], self._integral[1], self._integral[2])
+
+    def step(
+        self,
+        time: float,
+        position_w: Sequence[float],
+        quat_wb_wxyz: Sequence[float],
+        velocity_b: Sequence[float],
+        omega_b: Sequence[float],
+        target_w: Sequence[float],
+        yaw: float,
+    ) -> NDArray[np.float64]:
+        """
+        Return the thrusts that answer a state.
+
+        Parameters
+        ----------
+        time
+            Stamp of the state [s].
+        position_w, quat_wb_wxyz
+            Pose: position [m], world axes; attitude, body to world.
+        velocity_b, omega_b
+            Twist in body axes [m/s], [rad/s].
+        target_w, yaw
+            Position [m] to hold, world axes, and heading [rad].
+
+        Returns
+        -------
+        Thrusts [N], shape (n,); the same array at every call.
+
+        """
+        dt = self._clock.advance(time)
+        if self._clock.restarted:
+            self._integral[:] = self._pending[:] = (0.0, 0.0, 0.0)
+        self._integrate(dt)
+        r_wb = rot.from_quaternion(quat_wb_wxyz)
+        velocity_w = rot.to_world(r_wb, velocity_b)
+        error = self._speed_error(position_w, velocity_w, target_w)
+        force_w, limited = self._force(error)
+        thrust = rot.to_body(r_wb, force_w)[2]
+        bounded = min(max(thrust, self._lowest), self._highest)
+
+        wrench = self._wrench
+        wrench[2] = bounded
+        wrench[3:] = self._torque(r_wb, omega_b, force_w, yaw)
+        thrusts = self.allocator.allocate(wrench)
+        self._pending[:] = (0.0, 0.0, 0.0) if limited or bounded != thrust else error
+        return thrusts
+
+    def _speed_error(
+        self, position_w: Sequence[float], velocity_w: rot.Vector3, target_w: Sequence[float]
+    ) -> rot.Vector3:
+        """Return v* - v [m/s], v* towards the target within the speed limits."""
+        gains = self.gains
+        vx = gains.position * (target_w[0] - position_w[0])
+        vy = gains.position * (target_w[1] - position_w[1])
+        vz = gains.position * (target_w[2] - position_w[2])
+        speed = math.hypot(vx, vy)
+        if speed > gains.max_speed:
+            vx, vy = vx * gains.max_speed / speed, vy * gains.max_speed / speed
+        vz = min(max(vz, -gains.max_climb), gains.max_climb)
+        return (vx - velocity_w[0], vy - velocity_w[1], vz - velocity_w[2])
+
+    def _force(self, error: rot.Vector3) -> tuple[rot.Vector3, bool]:
+        """Return the thrust vector [N], world axes, and whether tilt or its sign was limited."""
+        gains, i, plant = self.gains, self._integral, self.plant
+        # a third of the weight at least: the thrust axis stays defined, and points up
+        floor = plant.weight / 3.0
+        fz = plant.mass * (gains.velocity * error[2] + i[2]) + plant.weight
+        limited = fz < floor
+        fz = max(fz, floor)
+        fx = plant.mass * (gains.velocity * error[0] + i[0])
+        fy = plant.mass * (gains.velocity * error[1] + i[1])
+        sideways, allowed = math.hypot(fx, fy), self._tan_tilt * fz
+        if sideways > allowed:
+            fx, fy, limited = fx * allowed / sideways, fy * allowed / sideways, True
+        return (fx, fy, fz), limited
+
+    def _integrate(self, dt: float) -> None:
+        """Grow the integrator by the last state's error, over the time since that state."""
+        gain, bound, integral = self.gains.integral * dt, self.gains.max_integral, self._integral
+        for axis in (0, 1, 2):
+            value = integral[axis] + gain * self._pending[axis]
+            integral[axis] = min(max(value, -bound), bound)
+
+    def _torque(
+        self, r_wb: rot.Rotation, omega_b: Sequence[float], force_w: rot.Vector3, yaw: float
+    ) -> rot.Vector3:
+        """Return the torque [N m], body axes, that turns the thrust axis along the force."""
+        gains, (jx, jy, jz) = self.gains, self.plant.inertia
+        fx, fy, fz = force_w
+        inverse = 1.0 / math.sqrt(fx * fx + fy * fy + fz * fz)
+        desired = rot.from_thrust_axis((fx * inverse, fy * inverse, fz * inverse), yaw)
+        ex, ey, ez = rot.error(desired, r_wb)
+        wx, wy, wz = omega_b
+        most = gains.max_rate
+        ax = gains.rate * (min(max(gains.attitude * ex, -most), most) - wx)
+        ay = gains.rate * (min(max(gains.attitude * ey, -most), most) - wy)
+        # yaw: the attitude gain falls with the rate gain, so that the pair stays damped
+        yaw_gain = gains.attitude * gains.yaw_rate / gains.rate if gains.rate else 0.0
+        az = gains.yaw_rate * (min(max(yaw_gain * ez, -most), most) - wz)
+        return (
+            jx * ax + (jz - jy) * wy * wz,
+            jy * ay + (jx - jz) * wz * wx,
+            jz * az + (jy - jx) * wx * wy,
+        )

@@ -1,0 +1,122 @@
+"""
+Rotations as nine floats: a control step has no time for array objects.
+
+A rotation matrix R_wb (columns: body axes in world axes) is the tuple
+``(r00, r01, r02, r10, r11, r12, r20, r21, r22)``.
+"""
+
+import math
+from collections.abc import Sequence
+
+Rotation = tuple[float, float, float, float, float, float, float, float, float]
+Vector3 = tuple[float, float, float]
+
+
+def from_quaternion(quat_wb_wxyz: Sequence[float]) -> Rotation:
+    """Return R_wb of a quaternion (w, x, y, z); any norm above 0, as the norm is divided out."""
+    w, x, y, z = quat_wb_wxyz
+    s = 2.0 / (w * w + x * x + y * y + z * z)
+    xs, ys, zs = x * s, y * s, z * s
+    wx, wy, wz = w * xs, w * ys, w * zs
+    xx, xy, xz = x * xs, x * ys, x * zs
+    yy, yz, zz = y * ys, y * zs, z * zs
+    return (
+        1.0 - yy - zz, xy - wz, xz + wy,
+        xy + wz, 1.0 - xx - zz, yz - wx,
+        xz - wy, yz + wx, 1.0 - xx - yy,
+    )  # fmt: skip
+
+
+def from_yaw(yaw: float) -> Rotation:
+    """Return R_wb of a level body with a heading [rad], counter-clockwise from east (ENU)."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return (c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
+
+
+def from_thrust_axis(axis_w: Vector3, yaw: float) -> Rotation:
+    """
+    Return the attitude whose z axis is ``axis_w`` and whose y axis is normal to the heading.
+
+    Mellinger and Kumar (2011), ICRA, eq. 7: z_b = axis, y_b = z_b x x_c / |.|, x_b = y_b x z_b.
+
+    Parameters
+    ----------
+    axis_w
+        Direction of the body's z axis, world axes, unit length, within 90 deg of up.
+    yaw
+        Heading [rad], counter-clockwise from east.
+
+    """
+    c, s = math.cos(yaw), math.sin(yaw)
+    ax, ay, az = axis_w
+    # axis x (c, s, 0); its length is at least az, which is above 0
+    yx, yy, yz = -az * s, az * c, ax * s - ay * c
+    inverse = 1.0 / math.sqrt(yx * yx + yy * yy + yz * yz)
+    yx, yy, yz = yx * inverse, yy * inverse, yz * inverse
+    return (
+        yy * az - yz * ay, yx, ax,
+        yz * ax - yx * az, yy, ay,
+        yx * ay - yy * ax, yz, az,
+    )  # fmt: skip
+
+
+def error(desired: Rotation, actual: Rotation) -> Vector3:
+    """
+    Return the rotation vector that turns the actual attitude into the desired one, body axes.
+
+    The logarithm of R^T R_d [rad]; its length is the angle, up to pi. At a half turn, where the
+    axis is not unique, the result keeps the length of the largest error short of it.
+    """
+    a, b = actual, desired
+    # E = R^T R_d; of its antisymmetric part sin(angle) axis, of its trace 1 + 2 cos(angle)
+    e21 = a[2] * b[1] + a[5] * b[4] + a[8] * b[7]
+    e12 = a[1] * b[2] + a[4] * b[5] + a[7] * b[8]
+    e02 = a[0] * b[2] + a[3] * b[5] + a[6] * b[8]
+    e20 = a[2] * b[0] + a[5] * b[3] + a[8] * b[6]
+    e10 = a[1] * b[0] + a[4] * b[3] + a[7] * b[6]
+    e01 = a[0] * b[1] + a[3] * b[4] + a[6] * b[7]
+    e00 = a[0] * b[0] + a[3] * b[3] + a[6] * b[6]
+    e11 = a[1] * b[1] + a[4] * b[4] + a[7] * b[7]
+    e22 = a[2] * b[2] + a[5] * b[5] + a[8] * b[8]
+    x, y, z = 0.5 * (e21 - e12), 0.5 * (e02 - e20), 0.5 * (e10 - e01)
+    sine = math.sqrt(x * x + y * y + z * z)
+    cosine = 0.5 * (e00 + e11 + e22 - 1.0)
+    if sine > 1e-9:
+        scale = math.atan2(sine, cosine) / sine
+        return (x * scale, y * scale, z * scale)
+    if cosine > 0.0:
+        return (x, y, z)
+    # half turn: E = 2 u u^T - 1, so the largest diagonal entry gives the axis
+    if e00 >= e11 and e00 >= e22:
+        return (math.pi, 0.0, 0.0)
+    return (0.0, math.pi, 0.0) if e11 >= e22 else (0.0, 0.0, math.pi)
+
+
+def to_body(rotation_wb: Rotation, vector_w: Sequence[float]) -> Vector3:
+    """Return R_wb^T v: world axes to body axes."""
+    r, (x, y, z) = rotation_wb, vector_w
+    return (
+        r[0] * x + r[3] * y + r[6] * z,
+        r[1] * x + r[4] * y + r[7] * z,
+        r[2] * x + r[5] * y + r[8] * z,
+    )
+
+
+def to_world(rotation_wb: Rotation, vector_b: Sequence[float]) -> Vector3:
+    """Return R_wb v: body axes to world axes."""
+    r, (x, y, z) = rotation_wb, vector_b
+    return (
+        r[0] * x + r[1] * y + r[2] * z,
+        r[3] * x + r[4] * y + r[5] * z,
+        r[6] * x + r[7] * y + r[8] * z,
+    )
+
+
+def yaw_of(rotation_wb: Rotation) -> float:
+    """Return the heading of the body's x axis [rad], counter-clockwise from east."""
+    return math.atan2(rotation_wb[3], rotation_wb[0])
+
+
+def wrap(angle: float) -> float:
+    """Return the same angle in [-pi, pi]."""
+    return math.remainder(angle, math.tau)
