@@ -19,9 +19,9 @@ class Cut(NamedTuple):
     """The part of a body under the surface."""
 
     volume: Array  # [m^3], shape (...)
-    center_b: Array  # centre of that volume [m], shape (..., 3); the origin's image when empty
+    center_b: Array  # centre of that volume [m], shape (..., 3); finite but idle when empty
     waterplane_area: Array  # area of the body's section with the surface [m^2], shape (...)
-    waterplane_center_b: Array  # centre of that section [m], shape (..., 3)
+    waterplane_center_b: Array  # centre of that section [m], shape (..., 3); likewise
 
 
 def ellipsoid_cut(axes: ArrayLike, up_b: ArrayLike, height: ArrayLike) -> Cut:

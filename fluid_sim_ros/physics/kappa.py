@@ -1,7 +1,7 @@
 """
 Added mass and added moment of inertia of a triaxial ellipsoid, exactly.
 
-Tuckerman (1925), NACA report 210; Lamb (1932), art. 114 and 373. The textbook form of the added
+Tuckerman (1925), NACA report 210; Lamb (1932), art. 114-115. The textbook form of the added
 moment of inertia is a difference of nearly equal numbers for nearly equal axes, and so is its
 denominator for a disc. With
 

@@ -16,7 +16,8 @@ def power_law_profile(height: ArrayLike, reference: float, exponent: float) -> t
     """
     Return f = (z/z_ref)^alpha and df/dz [1/m]; 0 and 0 at and below the ground.
 
-    Wind over open land alpha = 1/7 (ASCE 7), tidal current 1/7 over the bed (Soulsby 1997).
+    Wind over open land alpha = 1/7 (Peterson and Hennessey 1978, J. Appl. Meteor. 17:390), tidal
+    current 1/7 over the bed (Soulsby 1997, Dynamics of Marine Sands).
 
     Parameters
     ----------

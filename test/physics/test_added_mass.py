@@ -66,7 +66,7 @@ def test_coriolis_does_no_work(seed, v, omega):
 
 @given(seeds(), vectors(), vectors())
 def test_coriolis_matrix_of_fossen(seed, v, omega):
-    # Fossen (2021) eq. 6.43: C = [[0, -S(p)], [-S(p), -S(l)]], the wrench is -C nu.
+    # Fossen (2021), ch. 6: C = [[0, -S(p)], [-S(p), -S(l)]], the wrench is -C nu.
     a = positive_matrix(seed)
     p, ang = momentum(a, v, omega)
     force, torque = added_mass_coriolis(a, v, omega)

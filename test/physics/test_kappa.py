@@ -56,7 +56,7 @@ def test_prolate_spheroid_closed_form(ratio):
 
 
 def test_thin_disc_limit():
-    # Lamb (1932) art. 102 and 373: 8/3 rho a^3 broadside, 16/45 rho a^5 about a diameter.
+    # Lamb (1932), ch. 5: 8/3 rho a^3 broadside, 16/45 rho a^5 about a diameter.
     mass, inertia = ellipsoid_added_mass([1.0, 1.0, 1e-6], 1.0)
     assert mass[2] == pytest.approx(8 / 3, rel=2e-6)
     assert inertia[:2] == pytest.approx([16 / 45, 16 / 45], rel=3e-6)
