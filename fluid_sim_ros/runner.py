@@ -113,7 +113,11 @@ class Pacing:
         """Return the most steps that may be taken before the next look at the source."""
         return NEVER
 
-    def meet(self, simulation: Simulation, source: Source, requests: RequestQueue) -> bool:
+    def is_due(self, simulation: Simulation) -> bool:
+        """Wait a short while for the boundary's wall time; False: not yet, serve requests."""
+        return True
+
+    def meet(self, simulation: Simulation, source: Source) -> bool:
         """Take in commands at a boundary; False: do not step yet, come back after requests."""
         source.poll(simulation)
         return True
@@ -152,7 +156,7 @@ class RealTime(Pacing):
     def longest_advance(self) -> int:
         return self.tick
 
-    def meet(self, simulation: Simulation, source: Source, requests: RequestQueue) -> bool:
+    def is_due(self, simulation: Simulation) -> bool:
         due = self._wall + (simulation.time - self._simulated) / self.factor
         ahead = due - time.perf_counter()
         if ahead > _IDLE_WAIT:  # wake for requests, then come back
@@ -163,7 +167,6 @@ class RealTime(Pacing):
         elif ahead < -_LARGEST_LAG:
             self.overruns += 1
             self.begin(simulation)
-        source.poll(simulation)
         return True
 
 
@@ -196,7 +199,7 @@ class Lockstep(Pacing):
     def longest_advance(self) -> int:
         return self.period
 
-    def meet(self, simulation: Simulation, source: Source, requests: RequestQueue) -> bool:
+    def meet(self, simulation: Simulation, source: Source) -> bool:
         if simulation.step_count % self.period:
             return True
         if self._waiting_for != simulation.step_count:
@@ -216,8 +219,8 @@ class Runner:
     """
     Source -> simulation -> sinks, on one event schedule in whole steps.
 
-    At each boundary: requests of other threads, then the sinks that are due, then commands in,
-    then steps up to the next boundary. Only the thread in ``run`` touches the simulation.
+    At each boundary: requests of other threads, the boundary's wall time (real-time pacing), the
+    sinks that are due, commands in, then steps up to the next boundary. Only the thread in ``run`` touches the simulation.
 
     Parameters
     ----------
@@ -276,16 +279,17 @@ class Runner:
             if self.stopped:
                 return
             step = simulation.step_count
-            if step >= until:
-                self._write(step)
-                return
+            if not self.paused and not self.pacing.is_due(simulation):
+                continue
             self._write(step)
+            if step >= until:
+                return
             if self.paused:
                 requests.idle()
                 self.pacing.begin(simulation)
                 continue
             pacing = self.pacing  # a request may have changed it
-            if not pacing.meet(simulation, self.source, requests):
+            if not pacing.meet(simulation, self.source):
                 continue
             simulation.step(self._advance(step, min(until - step, pacing.longest_advance())))
 

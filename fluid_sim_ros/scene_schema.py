@@ -122,7 +122,8 @@ def parse(schema: type[Schema], content: Any, path: Path) -> Schema:
 
 
 def _first_fault(schema: type[BaseModel], error: ValidationError) -> str:
-    fault = error.errors(include_url=False)[0]
+    # the deepest fault is the one that the writer can act on (a union reports each member)
+    fault = max(error.errors(include_url=False), key=lambda fault: len(fault['loc']))
     # pydantic adds the names of union members to the place; they mean nothing to a reader
     place = '.'.join(
         str(part) for part in fault['loc']

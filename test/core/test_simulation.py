@@ -1,0 +1,248 @@
+"""Simulation: stepping under watch, commands, wrench terms, determinism."""
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fluid_sim_ros import Simulation
+from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError
+from fluid_sim_ros.plugins.native import TERMS
+
+TWO_PARTS = """
+<mujoco>
+  <option density="1000" viscosity="1e-3" timestep="0.002" integrator="implicitfast"
+          wind=".3 -.2 .1"/>
+  <worldbody>
+    <body name="boat"><freejoint/>
+      <geom type="ellipsoid" size=".3 .2 .1" density="900" fluidshape="ellipsoid"
+            pos=".02 .01 0" euler="10 20 30"/>
+      <site name="s" pos=".1 0 0"/>
+      <body name="fin" pos=".4 0 0"><joint name="hinge" axis="0 0 1"/>
+        <geom type="box" size=".1 .01 .05"/></body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor name="push" site="s" gear="0 0 1 0 0 .1" ctrllimited="true" ctrlrange="-2 3"/>
+    <motor name="turn" joint="hinge"/>
+  </actuator>
+</mujoco>
+"""
+
+
+@pytest.fixture
+def boat(tmp_path):
+    path = tmp_path / 'boat.xml'
+    path.write_text(TWO_PARTS)
+    return Simulation(path)
+
+
+def test_wrench_terms_add_up_to_what_the_engine_applies(boat):
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        boat.data.qpos[3:7] = rng.normal(size=4)
+        mujoco.mj_normalizeQuat(boat.model, boat.data.qpos)
+        boat.data.qvel[:] = rng.normal(size=boat.model.nv)
+        terms = boat.wrench('boat')
+        force = sum(f for f, _ in terms.values())
+        torque = sum(t for _, t in terms.values())
+        mujoco.mj_forward(boat.model, boat.data)
+        R = boat.data.body('boat').xmat.reshape(3, 3)
+        expected_force = R.T @ boat.data.qfrc_fluid[:3]
+        scale = np.linalg.norm(expected_force) + np.linalg.norm(boat.data.qfrc_fluid[3:6])
+        np.testing.assert_allclose(force, expected_force, atol=1e-12 * scale)
+        np.testing.assert_allclose(torque, boat.data.qfrc_fluid[3:6], atol=1e-12 * scale)
+    assert list(terms) == list(TERMS)
+
+
+def test_reading_never_changes_the_trajectory(boat):
+    boat.data.qvel[:] = 0.5
+    start = boat.save_state()
+    boat.step(200)
+    plain = boat.data.qpos.copy()
+    boat.load_state(start)
+    for _ in range(200):
+        boat.step()
+        boat.wrench('boat')
+        boat.snapshot()
+    np.testing.assert_array_equal(boat.data.qpos, plain)
+
+
+def test_stepping_equals_a_bare_mujoco_loop(boat):
+    data = mujoco.MjData(boat.model)
+    data.qvel[:] = boat.data.qvel[:] = 0.3
+    mujoco.mj_step(boat.model, data, 500)
+    boat.step(500)
+    np.testing.assert_array_equal(boat.data.qpos, data.qpos)
+    np.testing.assert_array_equal(boat.data.qvel, data.qvel)
+
+
+@settings(max_examples=20, deadline=None)
+@given(cut=st.integers(1, 99), seed=st.integers(0, 2**31))
+def test_a_saved_state_goes_on_bit_for_bit(cut, seed):
+    simulation = Simulation('rov')
+    rng = np.random.default_rng(seed)
+    thrust = rng.uniform(-20, 20, 8)
+    simulation.set_thrust('bluerov2_heavy', thrust)
+    simulation.set_wrench('bluerov2_heavy', [1, 2, 3], [0.1, 0, 0])
+    simulation.set_current([0.2, 0, 0])
+    simulation.step(cut)
+    state = simulation.save_state()
+    simulation.step(100)
+    expected = simulation.data.qpos.copy()
+    simulation.reset()
+    simulation.load_state(state)
+    assert simulation.step_count == cut
+    simulation.step(100)
+    np.testing.assert_array_equal(simulation.data.qpos, expected)
+
+
+def test_a_state_of_another_model_is_refused(boat):
+    with pytest.raises(FluidSimError, match='another model'):
+        boat.load_state(Simulation('sphere').save_state())
+
+
+def test_snapshot_velocity_is_in_body_axes(boat):
+    half = np.sqrt(0.5)
+    boat.data.qpos[:7] = [1, 2, 3, half, 0, 0, half]  # yaw 90 degrees: body x is world y
+    boat.data.qvel[:6] = [0, 2, 0, 0.1, 0.2, 0.3]
+    state = boat.snapshot().vehicles['boat']
+    np.testing.assert_allclose(state.velocity_b, [2, 0, 0], atol=1e-15)
+    np.testing.assert_allclose(state.omega_b, [0.1, 0.2, 0.3])
+    np.testing.assert_allclose(state.position_w, [1, 2, 3])
+
+
+def test_specific_force_of_a_body_at_rest_is_plus_g(tmp_path):
+    path = tmp_path / 'rest.xml'
+    path.write_text(
+        '<mujoco><worldbody><geom type="plane" size="1 1 1"/><body name="b" pos="0 0 .1">'
+        '<freejoint/><geom size=".1"/></body></worldbody></mujoco>'
+    )
+    simulation = Simulation(path)
+    simulation.step(2000)
+    row = simulation.observe(forces=True)[0]
+    np.testing.assert_allclose(row[13:16], [0, 0, 9.81], atol=1e-6)
+
+
+# ---- commands ----------------------------------------------------------------------------------
+
+
+def test_thrust_saturates_and_counts(boat):
+    assert boat.set_thrust('boat', [9.0]) == 1
+    assert boat.data.ctrl[0] == 3
+    assert boat.set_thrust('boat', [-1.5]) == 0
+
+
+@pytest.mark.parametrize(
+    ('call', 'line'),
+    [
+        (lambda s: s.set_thrust('ship', [1]), "vehicle 'ship' is not in the scene; it has: boat"),
+        (lambda s: s.set_thrust('boat', [1, 2]), r"got 2 values, needs 1 \(push\)"),
+        (lambda s: s.set_thrust('boat', [np.nan]), 'not finite'),
+        (lambda s: s.set_thrust('boat', [np.inf]), 'not finite'),
+        (lambda s: s.set_thrust('boat', ['x']), 'are not numbers'),
+        (lambda s: s.set_joints('boat', {'rudder': 1}), "'rudder' is not one of them: turn"),
+        (lambda s: s.set_wind([1, 0, 0]), 'is in water; command the current'),
+        (lambda s: s.set_current([1, 0]), 'got 2 values, needs 3'),
+        (lambda s: s.set_wrench('boat', [1, 0, 0], [0, 0, 0], 'odom'), 'allowed: base_link, map'),
+        (lambda s: s.reset('up'), "keyframe 'up' is not in the model"),
+        (lambda s: s.wrench('ship'), "vehicle 'ship'"),
+    ],
+)
+def test_a_wrong_command_is_refused_and_leaves_the_state_alone(boat, call, line):
+    control, wind = boat.data.ctrl.copy(), boat.model.opt.wind.copy()
+    with pytest.raises(CommandError, match=line):
+        call(boat)
+    np.testing.assert_array_equal(boat.data.ctrl, control)
+    np.testing.assert_array_equal(boat.model.opt.wind, wind)
+
+
+@pytest.mark.parametrize('frame', ['base_link', 'map'])
+def test_a_commanded_wrench_acts_at_the_base_origin_in_its_frame(tmp_path, frame):
+    path = tmp_path / 'free.xml'
+    path.write_text(
+        '<mujoco><option gravity="0 0 0" timestep="1e-4"/><worldbody><body name="b"><freejoint/>'
+        '<geom type="box" size=".3 .2 .1"/></body></worldbody></mujoco>'
+    )
+    simulation = Simulation(path)
+    simulation.data.qpos[3:7] = [np.sqrt(0.5), 0, 0, np.sqrt(0.5)]  # body x is world y
+    simulation.set_wrench('b', [10, 0, 0], [0, 0, 0], frame)
+    simulation.step()
+    mass = simulation.model.body('b').mass[0]
+    expected = [0, 10, 0] if frame == 'base_link' else [10, 0, 0]
+    np.testing.assert_allclose(simulation.data.qvel[:3] / 1e-4 * mass, expected, atol=1e-9)
+    simulation.set_wrench('b', [0, 0, 0], [0, 0, 0])
+    before = simulation.data.qvel.copy()
+    simulation.step()
+    np.testing.assert_allclose(simulation.data.qvel, before, atol=1e-12)
+
+
+def test_wind_can_be_switched_off_and_on():
+    simulation = Simulation('quadrotor')
+    simulation.set_wind([4, 0, 0])
+    simulation.enable_wind(False)
+    assert not simulation.model.opt.wind.any()
+    simulation.enable_wind(True)
+    np.testing.assert_array_equal(simulation.model.opt.wind, [4, 0, 0])
+
+
+def test_scheduled_events_act_at_their_step_however_steps_are_batched(tmp_path):
+    (tmp_path / 'boat.xml').write_text(TWO_PARTS)
+    scene = tmp_path / 'scene.yaml'
+    scene.write_text(
+        'model: boat.xml\nschedule:\n- {at: 0.1, current: [1, 0, 0]}\n'
+        '- {at: 0.05, thrust: {boat: [2]}}\n'
+    )
+    ends = []
+    for batch in (1, 7, 200):
+        simulation = Simulation(scene)
+        while simulation.step_count < 200:
+            simulation.step(min(batch, 200 - simulation.step_count))
+        ends.append(simulation.data.qpos.copy())
+        assert simulation.model.opt.wind[0] == 1
+    np.testing.assert_array_equal(ends[0], ends[1])
+    np.testing.assert_array_equal(ends[0], ends[2])
+    simulation.reset()
+    assert simulation.model.opt.wind[0] == 0.3  # the model's own, before the event
+
+
+def test_time_is_exact_from_the_step_count():
+    simulation = Simulation('sphere', timestep=0.001)
+    simulation.step(1000)
+    assert simulation.time_ns == 1_000_000_000
+    assert simulation.time == 1.0
+
+
+# ---- the watchdog ------------------------------------------------------------------------------
+
+
+def test_a_blow_up_is_reported_at_its_step_with_body_and_hint(boat):
+    boat.step(10)
+    boat.data.qvel[6] = 1e12
+    with pytest.raises(DivergedError, match=r"t = 0\.02\d* s in body '\w+' .*try a timestep below") as e:
+        boat.step(1000)
+    assert boat.step_count < 20
+    assert e.value.body in ('fin', 'boat')
+    assert e.value.time < 0.04
+    boat.reset()
+    boat.step(10)
+    assert np.isfinite(boat.data.qpos).all()
+
+
+def test_a_silent_reset_of_the_engine_is_noticed(boat):
+    boat.data.qpos[0] = np.nan
+    with pytest.raises(DivergedError):
+        boat.step(1)
+
+
+def test_a_fast_light_sphere_diverges_with_euler_and_says_so(tmp_path):
+    path = tmp_path / 'light.xml'
+    path.write_text(
+        '<mujoco><option density="1000" timestep=".02" integrator="Euler"/><worldbody>'
+        '<body name="ball"><freejoint/><geom size=".1" density="50"/></body></worldbody></mujoco>'
+    )
+    simulation = Simulation(path)
+    simulation.data.qvel[0] = 50.0
+    with pytest.raises(DivergedError, match="body 'ball' .*implicitfast"):
+        simulation.step(5000)
