@@ -38,7 +38,10 @@ class Native:
 
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
-    the interpreter lock while they run. See plugins/src/api.cc for their meaning.
+    the interpreter lock while they run. ``set_medium(model, data, wind, current) -> int`` takes
+    addresses of three numbers or 0. ``explicit_force(model, data, scratch, out)`` and
+    ``kinetic_energy(model, data, scratch, out)`` work on the scratch data. See plugins/src/api.cc
+    for their meaning.
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
@@ -51,6 +54,15 @@ class Native:
             pointer, pointer, pointer, pointer, integer, integer, pointer,
         ]  # fmt: skip
         library.fsr_observe.restype = None
+        self.set_medium: Callable[[int, int, int, int], int] = library.fsr_set_medium
+        library.fsr_set_medium.argtypes = [pointer] * 4
+        library.fsr_set_medium.restype = integer
+        self.explicit_force: Callable[[int, int, int, int], None] = library.fsr_explicit_force
+        library.fsr_explicit_force.argtypes = [pointer] * 4
+        library.fsr_explicit_force.restype = None
+        self.kinetic_energy: Callable[[int, int, int, int], None] = library.fsr_kinetic_energy
+        library.fsr_kinetic_energy.argtypes = [pointer] * 4
+        library.fsr_kinetic_energy.restype = None
         if library.fsr_row_width() != ROW_WIDTH or library.fsr_term_count() != len(TERMS):
             raise PluginError(
                 f'{plugin_library()} and native.py are of different versions; reinstall the package'

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "assembly.h"
 #include "fluid_terms.h"
 #include "stock_terms.h"
 
@@ -96,6 +97,7 @@ void ObserveWrenches(const mjModel* m, const mjData* d, int base, mjtNum* row) {
   for (int body = base; body < m->nbody; ++body) {
     if (body > base && m->body_parentid[body] < base) break;
     AddStockTerms(m, d, body, origin, terms);
+    AddPluginTerms(m, d, body, origin, true, terms);
   }
   mju_zero(row + kTotal, 6);
   for (int i = 0; i < kTermCount; ++i) {
@@ -173,10 +175,50 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
     } else {
       ObserveJointedBase(m, scratch, bases[i], row);
     }
-    mju_copy3(row + kMediumVelocity, m->opt.wind);
+    MediumVelocity(m, d, row + kPosition, row + kMediumVelocity);
     if (forces) {
       ObserveWrenches(m, scratch, bases[i], row);
       ObserveAcceleration(m, scratch, bases[i], row);
     }
   }
+}
+
+// Targets that the wind and the current move towards from now on [m/s], world axes; a null pointer
+// leaves one as it is. Returns 1, or 0 for a model where no fluid_sim.medium is in charge (set
+// opt.wind there). Writes plugin_state only.
+FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind,
+                           const double* current) {
+  const Assembly* assembly = FindAssembly(m, d);
+  if (!assembly || !assembly->medium.in_charge()) return 0;
+  const Medium& medium = assembly->medium;
+  mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
+  if (current) SetTarget(medium.current, state, d->time, current);
+  if (wind) SetTarget(medium.wind, state + kDriveState, d->time, wind);
+  return 1;
+}
+
+// Explicit generalized fluid force of MuJoCo and the plugins at the state in d, from the terms
+// alone: sum of J' wrench, out[nv]. For checks against qfrc_fluid. Uses and needs `scratch`.
+FSR_API void fsr_explicit_force(const mjModel* m, const mjData* d, mjData* scratch, double* out) {
+  mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
+  mj_fwdPosition(m, scratch);
+  mj_fwdVelocity(m, scratch);
+  mju_zero(out, m->nv);
+  for (int body = 1; body < m->nbody; ++body) {
+    const mjtNum* origin = scratch->xpos + 3 * body;
+    Wrench terms[kTermCount];
+    AddStockTerms(m, scratch, body, origin, terms);
+    AddPluginTerms(m, scratch, body, origin, false, terms);
+    for (const Wrench& term : terms) {
+      mj_applyFT(m, scratch, term.force, term.torque, origin, body, out);
+    }
+  }
+}
+
+// Kinetic energy [J] at the state in d: out[0] of the bodies, out[1] of the flow around them.
+FSR_API void fsr_kinetic_energy(const mjModel* m, const mjData* d, mjData* scratch, double* out) {
+  mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
+  mj_fwdPosition(m, scratch);
+  mj_fwdVelocity(m, scratch);
+  KineticEnergy(m, scratch, out);
 }

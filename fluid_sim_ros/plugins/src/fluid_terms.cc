@@ -34,7 +34,7 @@ void EquivalentInertiaBox(const mjModel* m, int body, mjtNum edges[3]) {
   }
 }
 
-Wrench InertiaBoxDrag(const mjtNum edges[3], const Medium& medium, const mjtNum w[3],
+Wrench InertiaBoxDrag(const mjtNum edges[3], const MediumConstants& medium, const mjtNum w[3],
                       const mjtNum v[3]) {
   Wrench out;
   for (int i = 0; i < 3; ++i) {
@@ -45,7 +45,7 @@ Wrench InertiaBoxDrag(const mjtNum edges[3], const Medium& medium, const mjtNum 
   return out;
 }
 
-Wrench InertiaBoxViscous(const mjtNum edges[3], const Medium& medium, const mjtNum w[3],
+Wrench InertiaBoxViscous(const mjtNum edges[3], const MediumConstants& medium, const mjtNum w[3],
                          const mjtNum v[3]) {
   const mjtNum diameter = (edges[0] + edges[1] + edges[2]) / 3;
   Wrench out;
@@ -72,7 +72,7 @@ Projection ProjectEllipsoid(const mjtNum r[3], const mjtNum v[3]) {
   return out;
 }
 
-Wrench EllipsoidDrag(const mjtNum r[3], const EllipsoidCoefficients& c, const Medium& medium,
+Wrench EllipsoidDrag(const mjtNum r[3], const EllipsoidCoefficients& c, const MediumConstants& medium,
                      const mjtNum w[3], const mjtNum v[3]) {
   const SortedAxes axes = Sort(r);
   const mjtNum area = ProjectEllipsoid(r, v).area;
@@ -93,7 +93,7 @@ Wrench EllipsoidDrag(const mjtNum r[3], const EllipsoidCoefficients& c, const Me
   return out;
 }
 
-Wrench EllipsoidViscous(const mjtNum r[3], const Medium& medium, const mjtNum w[3],
+Wrench EllipsoidViscous(const mjtNum r[3], const MediumConstants& medium, const mjtNum w[3],
                         const mjtNum v[3]) {
   const mjtNum diameter = 2.0 / 3.0 * (r[0] + r[1] + r[2]);
   Wrench out;
@@ -102,7 +102,7 @@ Wrench EllipsoidViscous(const mjtNum r[3], const Medium& medium, const mjtNum w[
   return out;
 }
 
-Wrench EllipsoidMagnus(const mjtNum r[3], mjtNum coefficient, const Medium& medium,
+Wrench EllipsoidMagnus(const mjtNum r[3], mjtNum coefficient, const MediumConstants& medium,
                        const mjtNum w[3], const mjtNum v[3]) {
   Wrench out;
   mju_cross(out.force, w, v);
@@ -110,7 +110,7 @@ Wrench EllipsoidMagnus(const mjtNum r[3], mjtNum coefficient, const Medium& medi
   return out;
 }
 
-Wrench EllipsoidKutta(const mjtNum r[3], mjtNum coefficient, const Medium& medium,
+Wrench EllipsoidKutta(const mjtNum r[3], mjtNum coefficient, const MediumConstants& medium,
                       const mjtNum v[3]) {
   const Projection projection = ProjectEllipsoid(r, v);
   Wrench out;

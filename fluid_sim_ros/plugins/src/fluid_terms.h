@@ -28,7 +28,7 @@ struct Wrench {
   mjtNum torque[3] = {0, 0, 0};  // [N m]
 };
 
-struct Medium {
+struct MediumConstants {
   mjtNum density;    // [kg/m^3]
   mjtNum viscosity;  // dynamic [Pa s]
 };
@@ -49,19 +49,19 @@ Projection ProjectEllipsoid(const mjtNum semiaxes[3], const mjtNum v[3]);
 
 // Inertia-box model: full edge lengths of the equivalent box of body `body` [m].
 void EquivalentInertiaBox(const mjModel* m, int body, mjtNum edges[3]);
-Wrench InertiaBoxDrag(const mjtNum edges[3], const Medium& medium, const mjtNum w[3],
+Wrench InertiaBoxDrag(const mjtNum edges[3], const MediumConstants& medium, const mjtNum w[3],
                       const mjtNum v[3]);
-Wrench InertiaBoxViscous(const mjtNum edges[3], const Medium& medium, const mjtNum w[3],
+Wrench InertiaBoxViscous(const mjtNum edges[3], const MediumConstants& medium, const mjtNum w[3],
                          const mjtNum v[3]);
 
 // Ellipsoid model (w, v: angular and linear velocity in the ellipsoid's frame).
 Wrench EllipsoidDrag(const mjtNum semiaxes[3], const EllipsoidCoefficients& c,
-                     const Medium& medium, const mjtNum w[3], const mjtNum v[3]);
-Wrench EllipsoidViscous(const mjtNum semiaxes[3], const Medium& medium, const mjtNum w[3],
+                     const MediumConstants& medium, const mjtNum w[3], const mjtNum v[3]);
+Wrench EllipsoidViscous(const mjtNum semiaxes[3], const MediumConstants& medium, const mjtNum w[3],
                         const mjtNum v[3]);
-Wrench EllipsoidMagnus(const mjtNum semiaxes[3], mjtNum coefficient, const Medium& medium,
+Wrench EllipsoidMagnus(const mjtNum semiaxes[3], mjtNum coefficient, const MediumConstants& medium,
                        const mjtNum w[3], const mjtNum v[3]);
-Wrench EllipsoidKutta(const mjtNum semiaxes[3], mjtNum coefficient, const Medium& medium,
+Wrench EllipsoidKutta(const mjtNum semiaxes[3], mjtNum coefficient, const MediumConstants& medium,
                       const mjtNum v[3]);
 
 // Convective added-mass wrench for a diagonal added-mass matrix (Lamb 1932, ch. 5): does no work.

@@ -2,6 +2,10 @@
 
 #include <mujoco/mujoco.h>
 
+#include "assembly.h"
 #include "noop.h"
 
-mjPLUGIN_LIB_INIT(fluid_sim) { fluid_sim::RegisterNoop(); }
+mjPLUGIN_LIB_INIT(fluid_sim) {
+  fluid_sim::RegisterNoop();
+  fluid_sim::RegisterAssembly();
+}

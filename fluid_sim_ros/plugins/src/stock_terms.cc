@@ -17,7 +17,7 @@ void AddInertiaBox(const mjModel* m, const mjData* d, int body, const mjtNum poi
                    Wrench terms[kTermCount]) {
   const mjtNum* rotation = d->ximat + 9 * body;
   const mjtNum* origin = d->xipos + 3 * body;
-  const Medium medium{m->opt.density, m->opt.viscosity};
+  const MediumConstants medium{m->opt.density, m->opt.viscosity};
   mjtNum edges[3], w[3], v[3];
   EquivalentInertiaBox(m, body, edges);
   RelativeVelocity(m, d, mjOBJ_BODY, body, rotation, w, v);
@@ -33,7 +33,7 @@ void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const mjtNum poin
   const mjtNum scale = fluid[0];
   if (scale == 0) return;
   const EllipsoidCoefficients c{fluid[1], fluid[2], fluid[3], fluid[4], fluid[5]};
-  const Medium medium{m->opt.density, m->opt.viscosity};
+  const MediumConstants medium{m->opt.density, m->opt.viscosity};
   const mjtNum* rotation = d->geom_xmat + 9 * geom;
   const mjtNum* origin = d->geom_xpos + 3 * geom;
   mjtNum r[3], w[3], v[3], mass[3], inertia[3];

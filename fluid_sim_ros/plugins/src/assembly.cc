@@ -1,0 +1,216 @@
+#include "assembly.h"
+
+#include <cstring>
+#include <memory>
+
+#include "body_checks.h"
+#include "body_forces.h"
+#include "config.h"
+#include "inertia.h"
+#include "stock_terms.h"
+
+namespace fluid_sim {
+namespace {
+
+bool IsNamed(const mjModel* m, int instance, const char* name) {
+  return std::strcmp(PluginName(m, instance), name) == 0;
+}
+
+// First instance that takes part in the assembly, or -1.
+int FirstInstance(const mjModel* m) {
+  for (int i = 0; i < m->nplugin; ++i) {
+    if (IsNamed(m, i, "fluid_sim.body") || IsNamed(m, i, "fluid_sim.medium")) return i;
+  }
+  return -1;
+}
+
+std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
+  auto assembly = std::make_unique<Assembly>();
+  assembly->owner = owner;
+  if (!ReadMedium(m, &assembly->medium)) return nullptr;
+  for (int body = 1; body < m->nbody; ++body) {
+    const int instance = m->body_plugin[body];
+    if (instance < 0 || !IsNamed(m, instance, "fluid_sim.body")) continue;
+    BodyFluid fluid;
+    if (!ReadBody(m, instance, body, assembly->medium, &fluid)) return nullptr;
+    assembly->bodies.push_back(std::move(fluid));
+  }
+  if (!CheckOptions(m, owner, assembly->bodies)) return nullptr;
+  return assembly;
+}
+
+// Changes the inertia matrix at this call.
+bool AddsInertia(const BodyFluid& body, bool secant) {
+  const bool braked = body.damping.any || body.drag == Drag::kEllipsoid;
+  return body.added_mass || (secant && braked);
+}
+
+bool Asleep(const mjModel* m, const mjData* d, int body) {
+  return (m->opt.enableflags & mjENBL_SLEEP) && !d->tree_awake[m->body_treeid[body]];
+}
+
+void ApplyForces(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
+                 const BodyForces& forces) {
+  mjtNum wrench[6] = {0, 0, 0, 0, 0, 0};
+  for (const auto& term : forces.term) mju_addTo(wrench, term, 6);
+  AddGeneralizedForce(m, d, body, motion, wrench, d->qfrc_fluid);
+  AddGeneralizedForce(m, d, body, motion, wrench, d->qfrc_passive);
+}
+
+// The secant D_s makes drag implicit for the first-order integrators: (M + A + h D_s) qacc = f.
+// RK4 needs the true acceleration at each stage.
+void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
+  const bool secant = m->opt.integrator != mjINT_RK4;
+  bool any = false, chain = false;
+  for (const BodyFluid& body : assembly.bodies) {
+    const bool adds = AddsInertia(body, secant);
+    any |= adds;
+    chain |= adds && body.free_dof < 0;
+  }
+  if (chain) mj_makeM(m, d);  // a repeated evaluation must not add A twice
+  for (const BodyFluid& body : assembly.bodies) {
+    if (Asleep(m, d, body.id)) continue;
+    const Motion motion = BodyMotion(m, d, body);
+    BodyForces forces;
+    EvaluateBody(m, d, assembly.medium, body, motion, secant, &forces);
+    ApplyForces(m, d, body, motion, forces);
+    if (!AddsInertia(body, secant)) continue;
+    if (secant) mju_addToScl(forces.inertia, forces.secant, m->opt.timestep, 36);
+    if (body.free_dof >= 0) {
+      WriteFreeInertia(m, d, body, motion, forces.inertia);
+    } else {
+      AddChainInertia(m, d, body, motion, forces.inertia);
+    }
+  }
+  if (any) mj_factorM(m, d);
+}
+
+Assembly* Stored(const mjData* d, int instance) {
+  return reinterpret_cast<Assembly*>(d->plugin_data[instance]);
+}
+
+int Init(const mjModel* m, mjData* d, int instance) {
+  const int first = FirstInstance(m);
+  if (instance != first) {
+    d->plugin_data[instance] = d->plugin_data[first];
+    return 0;
+  }
+  d->plugin_data[instance] = 0;
+  std::unique_ptr<Assembly> assembly = BuildAssembly(m, first);
+  if (!assembly) return -1;
+  d->plugin_data[instance] = reinterpret_cast<uintptr_t>(assembly.release());
+  return 0;
+}
+
+void Destroy(mjData* d, int instance) {
+  Assembly* assembly = Stored(d, instance);
+  if (!assembly) return;
+  for (int i = 0; i < d->nplugin; ++i) {
+    if (Stored(d, i) == assembly) d->plugin_data[i] = 0;
+  }
+  delete assembly;
+}
+
+void Reset(const mjModel* m, mjtNum* state, void* data, int instance) {
+  const Assembly* assembly = static_cast<const Assembly*>(data);
+  if (assembly && IsNamed(m, instance, "fluid_sim.medium")) {
+    ResetMediumState(assembly->medium, state);
+  }
+}
+
+void Compute(const mjModel* m, mjData* d, int instance, int) {
+  const Assembly* assembly = Stored(d, instance);
+  if (assembly && assembly->owner == instance) Evaluate(*assembly, m, d);
+}
+
+void Register(const char* name, const char* const* attributes, int count,
+              int (*nstate)(const mjModel*, int)) {
+  mjpPlugin plugin;
+  mjp_defaultPlugin(&plugin);
+  plugin.name = name;
+  plugin.attributes = attributes;
+  plugin.nattribute = count;
+  plugin.capabilityflags = mjPLUGIN_PASSIVE;
+  plugin.nstate = nstate;
+  plugin.init = Init;
+  plugin.destroy = Destroy;
+  plugin.reset = Reset;
+  plugin.compute = Compute;
+  mjp_registerPlugin(&plugin);
+}
+
+const BodyFluid* FindBody(const Assembly& assembly, int id) {
+  for (const BodyFluid& body : assembly.bodies) {
+    if (body.id == id) return &body;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const Assembly* FindAssembly(const mjModel* m, const mjData* d) {
+  const int first = FirstInstance(m);
+  return first < 0 ? nullptr : Stored(d, first);
+}
+
+void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]) {
+  mj_makeM(m, d);
+  mj_markStack(d);
+  mjtNum* momentum = mj_stackAllocNum(d, m->nv);
+  mj_mulM(m, d, momentum, d->qvel);
+  out[0] = 0.5 * mju_dot(momentum, d->qvel, m->nv);
+  mj_freeStack(d);
+  out[1] = 0;
+  const Assembly* assembly = FindAssembly(m, d);
+  if (!assembly) return;
+  for (const BodyFluid& body : assembly->bodies) {
+    BodyForces forces;
+    EvaluateBody(m, d, assembly->medium, body, BodyMotion(m, d, body), false, &forces);
+    out[1] += forces.fluid_energy;
+  }
+}
+
+void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                    bool acceleration, Wrench terms[kTermCount]) {
+  const Assembly* assembly = FindAssembly(m, d);
+  const BodyFluid* fluid = assembly ? FindBody(*assembly, body) : nullptr;
+  if (!fluid) return;
+  const Motion motion = BodyMotion(m, d, *fluid);
+  BodyForces forces;
+  EvaluateBody(m, d, assembly->medium, *fluid, motion, false, &forces);
+  if (acceleration) {
+    mjtNum accel[6], push[6];
+    PointAcceleration(m, d, *fluid, motion, accel);
+    mju_mulMatVec(push, forces.inertia, accel, 6, 6);
+    mju_subFrom(forces.term[kAddedMass], push, 6);
+  }
+  for (int i = 0; i < kTermCount; ++i) {
+    Wrench local;
+    mju_copy3(local.force, forces.term[i]);
+    mju_copy3(local.torque, forces.term[i] + 3);
+    AddLocalWrench(local, motion.rotation, motion.point_w, point_w, 1, terms + i);
+  }
+}
+
+void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3],
+                    mjtNum velocity[3]) {
+  const Assembly* assembly = FindAssembly(m, d);
+  if (!assembly) {
+    mju_copy3(velocity, m->opt.wind);
+    return;
+  }
+  const Medium& medium = assembly->medium;
+  const bool above = medium.in_charge() && medium.has_surface && point_w[2] > medium.surface;
+  Flow flows[2];
+  FlowsAt(medium, m, d, point_w, above ? 0 : 1, flows);
+  mju_copy3(velocity, flows[0].velocity);
+}
+
+void RegisterAssembly() {
+  Register("fluid_sim.body", kBodyAttributes, kBodyAttributeCount,
+           [](const mjModel*, int) { return 0; });
+  Register("fluid_sim.medium", kMediumAttributes, kMediumAttributeCount,
+           [](const mjModel*, int) { return static_cast<int>(kMediumState); });
+}
+
+}  // namespace fluid_sim

@@ -1,0 +1,48 @@
+// One assembly per evaluation: medium, then every body, in a fixed order.
+//
+// MuJoCo calls each plugin instance on its own. The first passive fluid_sim instance (lowest id)
+// does the work of all, because the rigid-body inertia must be restored once before the added
+// masses are written into it and factored once after.
+
+#ifndef FLUID_SIM_ASSEMBLY_H_
+#define FLUID_SIM_ASSEMBLY_H_
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "body.h"
+#include "fluid_terms.h"
+#include "medium.h"
+
+namespace fluid_sim {
+
+// Constants of a model, owned by the plugin data of one mjData.
+struct Assembly {
+  int owner = -1;  // instance that evaluates
+  Medium medium;
+  std::vector<BodyFluid> bodies;  // ascending body id
+};
+
+// The assembly of a data, or null for a model without fluid_sim plugins.
+const Assembly* FindAssembly(const mjModel* m, const mjData* d);
+
+// Kinetic energy [J]: of the bodies, and of the flow that their added masses stand for.
+// `d` must hold positions and velocities; its inertia matrix is rewritten.
+void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]);
+
+// Add the plugin's terms of `body` in world axes about `point_w`. With `acceleration` the added
+// mass also resists d->qacc. Both need positions and velocities of the state in question.
+void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                    bool acceleration, Wrench terms[kTermCount]);
+
+// Velocity of the fluid that a world point lies in [m/s].
+void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3],
+                    mjtNum velocity[3]);
+
+// Register fluid_sim.body and fluid_sim.medium.
+void RegisterAssembly();
+
+}  // namespace fluid_sim
+
+#endif  // FLUID_SIM_ASSEMBLY_H_

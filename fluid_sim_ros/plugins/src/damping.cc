@@ -1,0 +1,30 @@
+#include "damping.h"
+
+#include <cmath>
+
+#include "spatial.h"
+
+namespace fluid_sim {
+
+void AddDamping(const Damping& damping, const mjtNum nu[6], mjtNum linear_share,
+                mjtNum quadratic_share, mjtNum out[6], mjtNum* secant) {
+  mjtNum matrix[36], force[6];
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      matrix[6 * i + j] = linear_share * damping.linear[6 * i + j] +
+                          quadratic_share * damping.quadratic[6 * i + j] * std::abs(nu[j]);
+    }
+  }
+  for (const CrossTerm& term : damping.cross) {
+    matrix[6 * term.row + term.linear] +=
+        quadratic_share * term.coefficient * std::abs(nu[term.absolute]);
+  }
+  MultiplyMatrix6(force, matrix, nu);
+  for (int i = 0; i < 6; ++i) out[i] -= force[i];
+  if (!secant) return;
+  // per fluid, so that the sum of the parts stays semi-definite too
+  ProjectSemidefinite6(matrix);
+  AddScaled36(secant, matrix, 1);
+}
+
+}  // namespace fluid_sim
