@@ -54,6 +54,15 @@ def test_mesh_volume_of_a_corner_tetrahedron():
         mesh_volume(vertices, faces[:3])
 
 
+def test_mesh_center_of_a_pyramid():
+    # A quarter of the height, where the mean of the five corners is at a fifth.
+    vertices = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 3]])
+    faces = [[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    volume, center = mesh_volume(vertices, faces)
+    assert volume == pytest.approx(4.0, rel=1e-14)
+    assert center == pytest.approx([0, 0, 0.75], abs=1e-14)
+
+
 def test_released_sphere_accelerates_with_its_added_mass():
     # (rho_f - rho_b) g / (rho_b + rho_f/2)
     rho_f, rho_b, r = 1000.0, 300.0, 0.1
