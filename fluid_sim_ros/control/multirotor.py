@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
+from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
@@ -19,55 +20,30 @@ PRIORITY = (('fz',), ('tx', 'ty'), ('tz',))
 
 
 @dataclass(frozen=True)
-class MultirotorGains:
-    """
-    Gains and limits; chosen for the x500 at a control rate of 100 Hz, loops a factor 3 apart.
+class MultirotorGains(Gains):
+    """Gains and limits; chosen for the x500 at a control rate of 100 Hz."""
 
-    Attributes
-    ----------
-    position
-        Speed asked for per position error [1/s].
-    velocity
-        Acceleration asked for per speed error [1/s].
-    integral
-        Growth of the acceleration per speed error [1/s^2]: a steady wind leaves no error.
-    attitude
-        Rate asked for per attitude error [1/s].
-    rate
-        Angular acceleration per rate error [1/s].
-    yaw_rate
-        The same for yaw [1/s]; weaker, since reaction torque is small.
-    max_speed, max_climb
-        Largest speed asked for, horizontal and vertical [m/s].
-    max_tilt
-        Largest angle between thrust and up [rad].
-    max_rate
-        Largest rate asked for [rad/s].
-    max_integral
-        Largest acceleration of the integrator on each axis [m/s^2].
-    thrust_margin
-        Share of the total thrust that is kept for torque at both ends [-].
-
-    """
-
-    position: float = 1.2
-    velocity: float = 3.5
-    integral: float = 2.5
-    attitude: float = 9.0
-    rate: float = 25.0
-    yaw_rate: float = 8.0
-    max_speed: float = 4.0
-    max_climb: float = 2.0
-    max_tilt: float = 0.6
-    max_rate: float = 4.0
-    max_integral: float = 6.0
-    thrust_margin: float = 0.1
+    position: float = gain(1.2, '1/s', 'speed asked for per position error')
+    velocity: float = gain(3.5, '1/s', 'acceleration asked for per speed error')
+    integral: float = gain(
+        2.5, '1/s^2', 'growth of the acceleration per speed error: steady wind leaves no error'
+    )
+    attitude: float = gain(9.0, '1/s', 'rate asked for per attitude error')
+    rate: float = gain(25.0, '1/s', 'angular acceleration per rate error, roll and pitch')
+    yaw_rate: float = gain(
+        8.0, '1/s', 'the same for yaw; weaker, since the reaction torque of rotors is small'
+    )
+    max_speed: float = gain(4.0, 'm/s', 'largest horizontal speed asked for')
+    max_climb: float = gain(2.0, 'm/s', 'largest vertical speed asked for')
+    max_tilt: float = gain(0.6, 'rad', 'largest angle between thrust and up')
+    max_rate: float = gain(4.0, 'rad/s', 'largest rate asked for')
+    max_integral: float = gain(6.0, 'm/s^2', 'largest acceleration of the integrator on each axis')
+    thrust_margin: float = gain(
+        0.1, '-', 'share of the total thrust that is kept for torque at both ends'
+    )
 
     def __post_init__(self) -> None:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if not (math.isfinite(value) and value >= 0):
-                raise ConfigError(f"gain '{f.name}': {value}; must be finite and at least 0")
+        super().__post_init__()
         if self.max_tilt >= math.pi / 2:
             raise ConfigError(f"gain 'max_tilt': {self.max_tilt}; must be below pi/2 rad")
         if self.thrust_margin >= 0.5:

@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
+from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
@@ -19,56 +20,32 @@ _NOTHING: rot.Vector3 = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class UnderwaterGains:
-    """
-    Gains and limits; chosen for a BlueROV2 Heavy at 50 to 100 Hz, loops a factor 3 apart.
+class UnderwaterGains(Gains):
+    """Gains and limits; chosen for a BlueROV2 Heavy at 50 to 100 Hz."""
 
-    Attributes
-    ----------
-    position
-        Speed asked for per position (or depth) error [1/s].
-    velocity
-        Acceleration asked for per speed error [1/s].
-    integral
-        Growth of the acceleration per speed error [1/s^2]: leaves no depth error with ballast,
-        and no drift in a current.
-    attitude
-        Rate asked for per attitude error [1/s].
-    rate
-        Angular acceleration per rate error [1/s].
-    attitude_integral
-        Growth of the angular acceleration per rate error [1/s^2]: leaves no tilt and no heading
-        error against a righting moment or a tether.
-    added_mass
-        Mass that acceleration has to move beside the body's own, as a share of it [-]; published
-        sets for this vehicle lie between 0.2 and 1.4.
-    max_speed, max_climb
-        Largest speed asked for, horizontal and vertical [m/s].
-    max_rate
-        Largest rate asked for [rad/s].
-    max_integral, max_angular_integral
-        Largest acceleration of the integrators on each axis [m/s^2], [rad/s^2].
-
-    """
-
-    position: float = 0.8
-    velocity: float = 4.0
-    integral: float = 4.0
-    attitude: float = 3.0
-    rate: float = 8.0
-    attitude_integral: float = 8.0
-    added_mass: float = 0.8
-    max_speed: float = 0.8
-    max_climb: float = 0.5
-    max_rate: float = 1.0
-    max_integral: float = 4.0
-    max_angular_integral: float = 20.0
-
-    def __post_init__(self) -> None:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if not (math.isfinite(value) and value >= 0):
-                raise ConfigError(f"gain '{f.name}': {value}; must be finite and at least 0")
+    position: float = gain(0.8, '1/s', 'speed asked for per position (or depth) error')
+    velocity: float = gain(4.0, '1/s', 'acceleration asked for per speed error')
+    integral: float = gain(
+        4.0, '1/s^2', 'growth of the acceleration per speed error: no depth error with ballast, '
+        'no drift in a current'
+    )  # fmt: skip
+    attitude: float = gain(3.0, '1/s', 'rate asked for per attitude error')
+    rate: float = gain(8.0, '1/s', 'angular acceleration per rate error')
+    attitude_integral: float = gain(
+        8.0, '1/s^2', 'growth of the angular acceleration per rate error: no tilt and no heading '
+        'error against a righting moment or a tether'
+    )  # fmt: skip
+    added_mass: float = gain(
+        0.8, '-', 'inertia that has to be moved beside the own one, as a share of it; published '
+        'sets for this vehicle lie between 0.2 and 1.4'
+    )  # fmt: skip
+    max_speed: float = gain(0.8, 'm/s', 'largest horizontal speed asked for')
+    max_climb: float = gain(0.5, 'm/s', 'largest vertical speed asked for')
+    max_rate: float = gain(1.0, 'rad/s', 'largest rate asked for')
+    max_integral: float = gain(4.0, 'm/s^2', 'largest acceleration of the integrator on each axis')
+    max_angular_integral: float = gain(
+        20.0, 'rad/s^2', 'largest angular acceleration of the integrator on each axis'
+    )
 
 
 class UnderwaterController:
