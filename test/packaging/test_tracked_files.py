@@ -1,0 +1,64 @@
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+IGNORED = ('.git', '.venv', 'build', 'install', 'log', 'out')
+# Home folders and places of one machine; ROS topics and system folders are not among them.
+MACHINE_PATH = re.compile(r'(?<![\w.$}*-])/(?:home|root|work|Users|mnt|workspace|builds)/[\w.]')
+REGISTRY = re.compile(
+    r'pypi\.(?:org|python)|python(?:hosted)\.org|(?:extra-)?index-url|find-links'
+)
+
+
+def project_files():
+    """Return the files that git tracks; outside a git checkout, all but what was built."""
+    listing = subprocess.run(
+        ['git', 'ls-files', '-z'], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if listing.returncode == 0 and listing.stdout:
+        paths = [ROOT / name for name in listing.stdout.split('\0') if name]
+        return [path for path in paths if path.is_file()]
+    return [
+        path for path in ROOT.rglob('*')
+        if path.is_file() and path.relative_to(ROOT).parts[0] not in IGNORED
+    ]  # fmt: skip
+
+
+def faults(text):
+    """Return what ties a text to one machine."""
+    return MACHINE_PATH.findall(text) + REGISTRY.findall(text)
+
+
+def test_no_file_names_a_place_of_one_machine():
+    found, read = {}, 0
+    for path in project_files():
+        try:
+            text = path.read_text(encoding='utf-8')
+        except UnicodeDecodeError:  # a picture
+            continue
+        read += 1
+        if path != Path(__file__).resolve() and faults(text):
+            found[str(path.relative_to(ROOT))] = faults(text)
+    assert found == {}
+    assert read > 50
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        'see /ho' + 'me/ann/project',
+        "open('/ro" + "ot/x')",
+        'pip install --index' + '-url x',
+        'https://py' + 'pi.org/simple',
+    ],
+)
+def test_such_a_place_is_found(text):
+    assert faults(text)
+
+
+@pytest.mark.parametrize('text', ['/opt/ros/jazzy', '~/reset', 'a/work/b', '/clock', '/dev/shm'])
+def test_other_paths_pass(text):
+    assert not faults(text)
