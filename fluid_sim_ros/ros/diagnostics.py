@@ -39,7 +39,7 @@ class GraphMonitor:
         clocks = node.get_publishers_info_by_topic('/clock')
         if len(clocks) > 1:
             # this node has one publisher; the others are named
-            names = sorted({f'{c.node_namespace.rstrip("/")}/{c.node_name}' for c in clocks})
+            names = sorted({_full_name(c) for c in clocks})
             faults.append(f'{len(clocks)} publishers of /clock: {", ".join(names)}')
         own = (node.get_name(), node.get_namespace())
         if node.get_node_names_and_namespaces().count(own) > 1:
@@ -47,6 +47,12 @@ class GraphMonitor:
         for fault in faults:
             self._report(fault, fault)
         self.faults = tuple(faults)
+
+
+def _full_name(endpoint: Any) -> str:
+    if 'UNKNOWN' in endpoint.node_name:  # discovery has its topic, but not yet its node
+        return '(a node that is still being discovered)'
+    return f'{endpoint.node_namespace.rstrip("/")}/{endpoint.node_name}'
 
 
 class Diagnostics:

@@ -2,60 +2,77 @@
 Outgoing messages as CDR templates that are patched in place.
 
 A template is the serialised form of a message whose strings and sequence lengths never change.
-Its doubles are found once by sentinels, so no byte offset is written down here; publishing copies
-the present numbers over them and hands the bytes to the middleware.
+It is written once, member by member in the order of the message definition, with zero padding
+(the middleware's own serialiser leaves chance bytes there, which would make equal runs differ);
+publishing copies the present numbers over it and hands the bytes to the middleware.
 """
 
 import struct
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
-from geometry_msgs.msg import TwistStamped, WrenchStamped
-from nav_msgs.msg import Odometry
 from numpy.typing import NDArray
-from rclpy.serialization import serialize_message
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
 
-# Any double that no message holds by default.
-_SENTINEL = 1.2345678e77
 _STAMP = struct.Struct('<iI')
-#: The stamp is the first member of every stamped message: right behind the CDR header.
-_STAMP_OFFSET = 4
+#: Plain CDR, little endian; the stamp is the first member of every message behind it.
+_HEADER = b'\x00\x01\x00\x00'
+_STAMP_OFFSET = len(_HEADER)
 
 Array = NDArray[np.float64]
 
 
 class Template:
     """
-    The bytes of one message; ``blocks`` are views of its runs of doubles.
+    The bytes of one message, built member by member.
 
-    Parameters
-    ----------
-    message
-        The message with everything constant filled in.
-    blocks
-        For each run of doubles: a function that puts a value into its first double, and its
-        length in doubles.
-
+    ``blocks`` are views of its runs of doubles in the order of their ``doubles`` calls that were
+    marked as changing; they exist after ``finish``.
     """
 
-    def __init__(
-        self, message: Any, blocks: Sequence[tuple[Callable[[float], None], int]]
-    ) -> None:
-        plain = serialize_message(message)
-        self._buffer = bytearray(plain)
+    def __init__(self) -> None:
+        self._buffer = bytearray(_HEADER) + bytearray(_STAMP.size)
+        self._places: list[tuple[int, int]] = []
+        self.padding: list[int] = []
+        self.blocks: list[memoryview] = []
+        self.stamp = memoryview(b'')
+
+    def _align(self, size: int) -> None:
+        gap = -(len(self._buffer) - len(_HEADER)) % size
+        self.padding += range(len(self._buffer), len(self._buffer) + gap)
+        self._buffer += bytes(gap)
+
+    def uint32(self, value: int) -> 'Template':
+        """Append an unsigned 32-bit integer (also a sequence's length)."""
+        self._align(4)
+        self._buffer += struct.pack('<I', value)
+        return self
+
+    def string(self, value: str) -> 'Template':
+        """Append a string."""
+        text = value.encode() + b'\x00'
+        self.uint32(len(text))
+        self._buffer += text
+        return self
+
+    def doubles(self, count: int) -> 'Template':
+        """Append doubles that change: a block."""
+        self._align(8)
+        self._places.append((len(self._buffer), 8 * count))
+        self._buffer += bytes(8 * count)
+        return self
+
+    def constants(self, values: Sequence[float]) -> 'Template':
+        """Append doubles that stay."""
+        self._align(8)
+        self._buffer += struct.pack(f'<{len(values)}d', *values)
+        return self
+
+    def finish(self) -> 'Template':
+        """End the message; its size is fixed from here on."""
         view = memoryview(self._buffer)
         self.stamp = view[_STAMP_OFFSET : _STAMP_OFFSET + _STAMP.size]
-        self.blocks = []
-        for mark, length in blocks:
-            mark(_SENTINEL)
-            start = serialize_message(message).find(struct.pack('<d', _SENTINEL))
-            mark(0.0)
-            if start < 0:
-                raise ValueError('a block of the template is not among the message bytes')
-            self.blocks.append(view[start : start + 8 * length])
+        self.blocks = [view[start : start + size] for start, size in self._places]
+        return self
 
     def bytes(self) -> bytes:
         """Return the message as it now stands."""
@@ -79,56 +96,43 @@ def as_bytes(numbers: Array) -> memoryview:
     return memoryview(numbers.reshape(-1)).cast('B')  # type: ignore[arg-type]
 
 
-def odometry(vehicle: str, pose_variance: Sequence[float], twist_variance: Sequence[float]) -> Template:
-    """Return nav_msgs/Odometry with blocks: position, orientation (xyzw), twist (6)."""
-    message = Odometry()
-    message.header.frame_id = f'{vehicle}/odom'
-    message.child_frame_id = f'{vehicle}/base_link'
-    message.pose.covariance = np.diag(pose_variance).ravel()
-    message.twist.covariance = np.diag(twist_variance).ravel()
-    pose, twist = message.pose.pose, message.twist.twist
-    return Template(
-        message,
-        [
-            (lambda x: setattr(pose.position, 'x', x), 3),
-            (lambda x: setattr(pose.orientation, 'x', x), 4),
-            (lambda x: setattr(twist.linear, 'x', x), 6),
-        ],
+def odometry(
+    vehicle: str, pose_variance: Sequence[float], twist_variance: Sequence[float]
+) -> Template:
+    """Return nav_msgs/Odometry with blocks: position (3), orientation xyzw (4), twist (6)."""
+    return (
+        Template()
+        .string(f'{vehicle}/odom')
+        .string(f'{vehicle}/base_link')
+        .doubles(3)
+        .doubles(4)
+        .constants(np.diag(pose_variance).ravel().tolist())
+        .doubles(6)
+        .constants(np.diag(twist_variance).ravel().tolist())
+        .finish()
     )
 
 
 def wrench(frame: str) -> Template:
     """Return geometry_msgs/WrenchStamped with one block: force and torque (6)."""
-    message = WrenchStamped()
-    message.header.frame_id = frame
-    return Template(message, [(lambda x: setattr(message.wrench.force, 'x', x), 6)])
+    return Template().string(frame).doubles(6).finish()
 
 
 def twist(frame: str) -> Template:
     """Return geometry_msgs/TwistStamped with one block: linear velocity (3)."""
-    message = TwistStamped()
-    message.header.frame_id = frame
-    return Template(message, [(lambda x: setattr(message.twist.linear, 'x', x), 3)])
+    return Template().string(frame).doubles(3).constants([0.0, 0.0, 0.0]).finish()
 
 
 def clock() -> Template:
     """Return rosgraph_msgs/Clock."""
-    return Template(Clock(), [])
+    return Template().finish()
 
 
 def joint_state(names: Sequence[str]) -> Template:
     """Return sensor_msgs/JointState with blocks: position, velocity, effort (one per name)."""
-    count = len(names)
-    message = JointState()
-    message.name = list(names)
-    message.position = [0.0] * count
-    message.velocity = [0.0] * count
-    message.effort = [0.0] * count
-
-    def mark(field: str) -> Callable[[float], None]:
-        def put(value: float) -> None:
-            getattr(message, field)[0] = value
-
-        return put
-
-    return Template(message, [(mark(f), count) for f in ('position', 'velocity', 'effort')])
+    template = Template().string('').uint32(len(names))
+    for name in names:
+        template.string(name)
+    for _ in range(3):
+        template.uint32(len(names)).doubles(len(names))
+    return template.finish()

@@ -1,0 +1,106 @@
+"""The parameter table, parameter files, and ROS_DOMAIN_ID."""
+
+import os
+import re
+
+import pytest
+import yaml
+from rclpy.parameter import Parameter
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.resources import config_folder
+from fluid_sim_ros.ros import parameters
+
+pytestmark = pytest.mark.ros
+
+
+def test_every_default_passes_its_own_check():
+    for name, declared in parameters.TABLE.items():
+        assert parameters.check(name, declared.default) is None, name
+
+
+def test_numbers_name_their_unit():
+    for name, declared in parameters.TABLE.items():
+        if isinstance(declared.default, float):
+            assert re.match(r'\[[^]]+\] ', declared.description), name
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'fault'),
+    [
+        ('realtime.factor', 1, None),
+        ('realtime.factor', True, 'is not a number'),
+        ('realtime.factor', 'fast', 'is not a number'),
+        ('realtime.factor', 0.0, 'out of range; allowed: 0.001 to 1000'),
+        ('realtime.factor', float('nan'), 'out of range'),
+        ('seed', 1.5, 'not of type int'),
+        ('pacing', 'lock', 'allowed: realtime, free, lockstep'),
+        ('integrator', 'rk4', None),
+        ('odom.pose_covariance', [0, 0, 0], 'has 3 values, needs 6'),
+        ('odom.pose_covariance', [0, 0, 0, 0, 0, -1], 'out of range'),
+        ('odom.pose_covariance', 1.0, 'is not an array'),
+        ('lockstep.wait_for', ['a', 'b'], None),
+    ],
+)
+def test_check_names_what_is_allowed(name, value, fault):
+    found = parameters.check(name, value)
+    if fault is None:
+        assert found is None
+    else:
+        assert f"parameter '{name}'" in found
+        assert fault in found
+
+
+def test_physics_is_fixed_while_configured_and_pacing_is_not():
+    scene = [Parameter('scene', value='rov')]
+    refused = parameters.judge_change(scene, configured=True)
+    assert not refused.successful
+    assert 'fixed while the node is configured' in refused.reason
+    assert parameters.judge_change(scene, configured=False).successful
+    assert parameters.judge_change([Parameter('pacing', value='free')], configured=True).successful
+
+
+@pytest.mark.parametrize('path', sorted((config_folder() / 'params').glob('*.yaml')), ids=str)
+def test_shipped_parameter_files_hold_known_flat_parameters(path):
+    parameters.check_parameter_files(['--params-file', str(path)])
+    (body,) = yaml.safe_load(path.read_text()).values()
+    for name, value in body['ros__parameters'].items():
+        assert parameters.check(name, value) is None
+
+
+@pytest.mark.parametrize(
+    ('text', 'line'),
+    [
+        ('a: {ros__parameters: {schedule: [{at: 1}]}}', "'schedule' is a list of mappings"),
+        ('a: {ros__parameters: {x: {y: [[1]]}}}', r"'x\.y' is a list of mappings or lists"),
+        ('model: rov\nvehicles: {r: rov}', "holds no 'ros__parameters'.*scene or vehicle file"),
+        ('a: [', 'not valid YAML'),
+        ('7', 'needs <node name>'),
+    ],
+)
+def test_a_file_that_ros_would_mangle_is_refused(tmp_path, text, line):
+    path = tmp_path / 'p.yaml'
+    path.write_text(text)
+    with pytest.raises(ConfigError, match=line):
+        parameters.check_parameter_files(['--ros-args', '--params-file', str(path)])
+
+
+def test_a_missing_parameter_file_is_named():
+    with pytest.raises(ConfigError, match=r'gone\.yaml: no such parameter file'):
+        parameters.check_parameter_files(['--params-file', 'gone.yaml'])
+
+
+@pytest.mark.parametrize('text', ['233', '-1', 'abc', '1.5', '99999999999'])
+def test_a_wrong_domain_is_refused(monkeypatch, text):
+    monkeypatch.setenv('ROS_DOMAIN_ID', text)
+    with pytest.raises(ConfigError, match=f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to 232"):
+        parameters.check_domain()
+
+
+def test_discovery_stays_on_this_host_unless_opened(monkeypatch):
+    monkeypatch.delenv('ROS_AUTOMATIC_DISCOVERY_RANGE', raising=False)
+    parameters.check_domain()
+    assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'LOCALHOST'
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
+    parameters.check_domain()
+    assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'SUBNET'

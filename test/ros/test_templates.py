@@ -1,0 +1,86 @@
+"""CDR templates: the bytes that are published equal those of the middleware's serialiser."""
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import TwistStamped, WrenchStamped
+from nav_msgs.msg import Odometry
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+
+from fluid_sim_ros.ros import templates
+
+pytestmark = pytest.mark.ros
+
+TIME_NS = 1_234_567_890_123
+
+
+def fill(template, *blocks):
+    stamp = templates.StampBytes()
+    stamp.set(TIME_NS)
+    template.stamp[:] = stamp.view
+    for target, numbers in zip(template.blocks, blocks, strict=True):
+        target[:] = templates.as_bytes(np.array(numbers, dtype=float))
+    return template
+
+
+def assert_same(template, message):
+    """Compare every byte but the padding, which the middleware leaves to chance."""
+    ours, theirs = bytearray(template.bytes()), bytearray(serialize_message(message))
+    for place in template.padding:
+        assert ours[place] == 0
+        theirs[place] = 0
+    assert ours == theirs
+
+
+def stamped(message):
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(TIME_NS, 10**9)
+    return message
+
+
+def test_odometry():
+    numbers = np.random.default_rng(0).normal(size=13)
+    message = stamped(Odometry())
+    message.header.frame_id = 'rov/odom'
+    message.child_frame_id = 'rov/base_link'
+    pose, twist = message.pose.pose, message.twist.twist
+    pose.position.x, pose.position.y, pose.position.z = numbers[:3]
+    o = pose.orientation
+    o.x, o.y, o.z, o.w = numbers[3:7]
+    twist.linear.x, twist.linear.y, twist.linear.z = numbers[7:10]
+    twist.angular.x, twist.angular.y, twist.angular.z = numbers[10:]
+    message.pose.covariance = np.diag([1.0, 2, 3, 4, 5, 6]).ravel()
+    message.twist.covariance = np.diag([6.0, 5, 4, 3, 2, 1]).ravel()
+    template = templates.odometry('rov', [1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1])
+    assert_same(fill(template, numbers[:3], numbers[3:7], numbers[7:]), message)
+
+
+def test_wrench():
+    message = stamped(WrenchStamped())
+    message.header.frame_id = 'x/base_link'
+    w = message.wrench
+    w.force.x, w.force.y, w.force.z, w.torque.x, w.torque.y, w.torque.z = map(float, range(1, 7))
+    assert_same(fill(templates.wrench('x/base_link'), range(1, 7)), message)
+
+
+def test_twist():
+    message = stamped(TwistStamped())
+    message.header.frame_id = 'map'
+    linear = message.twist.linear
+    linear.x, linear.y, linear.z = 1.0, 2.0, 3.0
+    assert_same(fill(templates.twist('map'), [1, 2, 3]), message)
+
+
+def test_clock():
+    message = Clock()
+    message.clock.sec, message.clock.nanosec = divmod(TIME_NS, 10**9)
+    assert_same(fill(templates.clock()), message)
+
+
+@pytest.mark.parametrize('count', [1, 2, 5])
+def test_joint_state(count):
+    names = [f'joint_{"x" * i}' for i in range(count)]
+    message = stamped(JointState(name=names))
+    rows = np.random.default_rng(count).normal(size=(3, count))
+    message.position, message.velocity, message.effort = (row.tolist() for row in rows)
+    assert_same(fill(templates.joint_state(names), *rows), message)
