@@ -1,0 +1,142 @@
+"""What the plugin benchmarks share: models with fluid_sim plugins, native calls, results."""
+
+import argparse
+import datetime
+import json
+import subprocess
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fluid_sim_ros.plugins.native import native
+
+Array = NDArray[np.float64]
+RESULTS = Path(__file__).parent / 'results'
+FIRST_ORDER = ('Euler', 'implicit', 'implicitfast', 'discrete')
+
+
+def text(values: ArrayLike) -> str:
+    """Return numbers with all their digits, as MJCF wants them."""
+    return ' '.join(f'{value:.17g}' for value in np.asarray(values, dtype=float).reshape(-1))
+
+
+def config(values: Mapping[str, Any]) -> str:
+    """Return the <config> elements of a plugin instance."""
+    lines = []
+    for key, value in values.items():
+        written = value if isinstance(value, str) else text(value)
+        lines.append(f'<config key="{key}" value="{written}"/>')
+    return ''.join(lines)
+
+
+def body_plugin(**values: Any) -> str:
+    """Return the element that puts fluid_sim.body on the body around it."""
+    return f'<plugin plugin="fluid_sim.body">{config(values)}</plugin>'
+
+
+def ellipsoid(size: ArrayLike, density: float, coef: ArrayLike = (0, 0, 0, 0, 0)) -> str:
+    """Return an ellipsoid geom that takes part in the fluid."""
+    return (
+        f'<geom type="ellipsoid" size="{text(size)}" density="{text(density)}" '
+        f'fluidshape="ellipsoid" fluidcoef="{text(coef)}" contype="0" conaffinity="0"/>'
+    )
+
+
+def world(
+    bodies: str,
+    *,
+    integrator: str = 'RK4',
+    timestep: float = 0.01,
+    gravity: ArrayLike = (0.0, 0.0, 0.0),
+    option: str = '',
+    flag: str = '',
+    medium: Mapping[str, Any] | None = None,
+    extra: str = '',
+) -> str:
+    """Return MJCF with both plugins declared; ``medium`` None leaves fluid_sim.medium out."""
+    instance = '' if medium is None else f'<instance name="fluid">{config(medium)}</instance>'
+    if medium is not None:
+        instance = f'<plugin plugin="fluid_sim.medium">{instance}</plugin>'
+    return f"""<mujoco><option timestep="{timestep:.17g}" integrator="{integrator}"
+gravity="{text(gravity)}" {option}><flag contact="disable" {flag}/></option>
+<extension><plugin plugin="fluid_sim.body"/>{instance}</extension>
+<worldbody>{bodies}</worldbody>{extra}</mujoco>"""
+
+
+def free_body(inside: str, *, name: str = 'hull', position: ArrayLike = (0, 0, 0)) -> str:
+    """Return a body with a free joint whose whole inertia matrix MuJoCo stores."""
+    return (
+        f'<body name="{name}" pos="{text(position)}" simple="false"><freejoint/>{inside}</body>'
+    )
+
+
+def load(xml: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Compile MJCF and make its data."""
+    native()
+    model = mujoco.MjModel.from_xml_string(xml)
+    return model, mujoco.MjData(model)
+
+
+def explicit_force(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Return the generalized fluid force summed over the published terms, without qacc."""
+    out = np.zeros(model.nv)
+    scratch = mujoco.MjData(model)
+    native().explicit_force(
+        model._address, data._address, scratch._address, out.ctypes.data
+    )
+    return out
+
+
+def kinetic_energy(
+    model: mujoco.MjModel, data: mujoco.MjData, scratch: mujoco.MjData | None = None
+) -> Array:
+    """Return the kinetic energy of the bodies and of the flow around them [J], shape (2,)."""
+    out = np.zeros(2)
+    scratch = scratch or mujoco.MjData(model)
+    native().kinetic_energy(model._address, data._address, scratch._address, out.ctypes.data)
+    return out
+
+
+def set_medium(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    *,
+    wind: ArrayLike | None = None,
+    current: ArrayLike | None = None,
+) -> bool:
+    """Let wind or current move towards a velocity [m/s]; False without a medium in charge."""
+    vectors = [
+        None if value is None else np.array(value, dtype=np.float64) for value in (wind, current)
+    ]
+    addresses = [0 if vector is None else vector.ctypes.data for vector in vectors]
+    return bool(native().set_medium(model._address, data._address, *addresses))
+
+
+def arguments(doc: str, name: str) -> argparse.Namespace:
+    """Return ``json`` (path of the result) and ``quick`` from the command line."""
+    parser = argparse.ArgumentParser(description=doc.strip().splitlines()[0])
+    parser.add_argument('--json', type=Path, default=RESULTS / f'{name}.json')
+    parser.add_argument('--quick', action='store_true', help='a fraction of the volume')
+    return parser.parse_args()
+
+
+def write(path: Path, result: Mapping[str, Any]) -> None:
+    """Write a result with what it was measured with."""
+    root = Path(__file__).parents[1]
+    head = subprocess.run(
+        ['git', 'rev-parse', '--short=12', 'HEAD'],
+        cwd=root, capture_output=True, text=True, check=False,
+    ).stdout.strip()  # fmt: skip
+    head_and_more = {
+        'commit': head or 'unknown',
+        'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
+        'mujoco': mujoco.__version__,
+        **result,
+    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(head_and_more, indent=1) + '\n', encoding='utf-8')
+    print(f'wrote {path}')
