@@ -63,10 +63,20 @@ class Native:
         self.kinetic_energy: Callable[[int, int, int, int], None] = library.fsr_kinetic_energy
         library.fsr_kinetic_energy.argtypes = [pointer] * 4
         library.fsr_kinetic_energy.restype = None
+        self._plugin_key = library.fsr_plugin_key
+        library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
+        library.fsr_plugin_key.restype = ctypes.c_char_p
         if library.fsr_row_width() != ROW_WIDTH or library.fsr_term_count() != len(TERMS):
             raise PluginError(
                 f'{plugin_library()} and native.py are of different versions; reinstall the package'
             )
+
+    def plugin_keys(self, plugin: str) -> tuple[str, ...]:
+        """Return the configuration keys of a plugin, empty for one that is not known."""
+        keys: list[str] = []
+        while (key := self._plugin_key(plugin.encode(), len(keys))) is not None:
+            keys.append(key.decode())
+        return tuple(keys)
 
 
 @cache

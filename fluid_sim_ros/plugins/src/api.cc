@@ -133,6 +133,12 @@ FSR_API int fsr_row_width() { return kRowWidth; }
 
 FSR_API int fsr_term_count() { return kTermCount; }
 
+// Configuration key i of a plugin by name, or null.
+FSR_API const char* fsr_plugin_key(const char* name, int i) {
+  const mjpPlugin* plugin = mjp_getPlugin(name, nullptr);
+  return plugin && i >= 0 && i < plugin->nattribute ? plugin->attributes[i] : nullptr;
+}
+
 // Take up to n steps and stop at the first bad one (NaN, or a MuJoCo warning that resets the state
 // silently). Returns the number of good steps; report[0] = time at the start of the bad step,
 // report[1] = its dof or -1.

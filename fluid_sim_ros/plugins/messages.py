@@ -1,0 +1,38 @@
+"""What MuJoCo says when a model with our plugins does not load, as one line."""
+
+import re
+
+from fluid_sim_ros.errors import listed
+from fluid_sim_ros.plugins.native import native
+
+_OURS = re.compile(r'^(fluid_sim\.\w+: .*)$', re.MULTILINE)
+_UNKNOWN_KEY = re.compile(r"unrecognized attribute 'plugin:(\w+)' for plugin ([\w.]+)")
+_ELEMENT = re.compile(r"Element name '([^']*)'")
+
+
+def load_error_line(error: Exception) -> str:
+    """
+    Return the one line that tells why a model or its data could not be made.
+
+    MuJoCo wraps the line of a plugin into several of its own and repeats it; for an unknown
+    key it does not say which keys there are. Any other error comes back on one line, unchanged.
+
+    Parameters
+    ----------
+    error
+        The ``ValueError`` of ``MjModel.from_xml_*`` or ``MjSpec.compile``, or the
+        ``mujoco.FatalError`` of ``MjData(model)`` after ``model.opt`` was changed (MuJoCo gives no
+        reason there and writes our line as a warning).
+
+    """
+    text = str(error)
+    if ours := _OURS.search(text):
+        return ours[1]
+    if unknown := _UNKNOWN_KEY.search(text):
+        key, plugin = unknown.groups()
+        element = _ELEMENT.search(text)
+        where = f"'{element[1]}': " if element else ''
+        return f"{plugin}: {where}unknown key '{key}'; it has: {listed(native().plugin_keys(plugin))}"
+    if 'plugin->init failed' in text:
+        return 'a plugin refuses the changed model; the WARNING before this line says why'
+    return ' '.join(text.split())
