@@ -91,12 +91,12 @@ def table(rows: Sequence[Row]) -> 'Table':
 def _install(extra: str) -> str:
     """Return what to type for an extra, in a source tree or an installed package."""
     source = Path(__file__).resolve().parents[1]
-    target = f'.[{extra}]' if (source / 'setup.py').exists() else f'fluid_sim_ros[{extra}]'
-    editable = '-e ' if target.startswith('.') else ''
-    python = Path(sys.executable)
-    if python.is_relative_to(Path.cwd()):
-        python = python.relative_to(Path.cwd())
-    return f"{shlex.quote(str(python))} -m pip install {editable}'{target}'"
+    python, target = sys.executable, f"'fluid_sim_ros[{extra}]'"
+    if (source / 'setup.py').exists():
+        target = f"-e '{source}[{extra}]'"
+        if Path.cwd() == source and Path(python).is_relative_to(source):
+            python, target = str(Path(python).relative_to(source)), f"-e '.[{extra}]'"
+    return f'{shlex.quote(python)} -m pip install {target}'
 
 
 def _version(distribution: str) -> str:
