@@ -55,6 +55,7 @@ class Schedule:
         )
         self.next_step = NEVER
         self._added: tuple[Event, ...] = ()
+        self._pending: list[Event] = []
         self.rewind(0)
 
     def add(self, event: Event) -> None:

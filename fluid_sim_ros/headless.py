@@ -12,8 +12,9 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.pacing import Pacing, RealTime
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.runner import NoSource, Pacing, RealTime, Runner, duration_steps
+from fluid_sim_ros.runner import NoSource, Runner, duration_steps
 from fluid_sim_ros.simulation import Simulation
 
 #: Simulated time between two looks at the forces [s].

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from fluid_sim_ros.environment import Event, exact
 from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.scene import Scene, Vehicle
+from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene_schema import ScheduledEvent
 from fluid_sim_ros.snapshot import ForceTorque, Snapshot, VehicleState
+from fluid_sim_ros.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 WRENCH_FRAMES = ('base_link', 'map')
@@ -290,7 +291,9 @@ class Simulation:
                 )
             held = dict(zip(target.joints, self._data.ctrl[target.joint_ids], strict=True))
             values = [{**held, **values}[name] for name in target.joints]
-        return self._set_controls(what, values, target.joints, target.joint_ids, target.joint_range)
+        return self._set_controls(
+            what, values, target.joints, target.joint_ids, target.joint_range
+        )
 
     def _set_controls(
         self,

@@ -10,15 +10,21 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
+from fluid_sim_ros.pacing import Lockstep, RealTime
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.ros.inputs import Inputs
-from fluid_sim_ros.runner import Lockstep, RealTime, Runner
+from fluid_sim_ros.runner import Runner
 from fluid_sim_ros.simulation import Simulation
 
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 #: MuJoCo warnings that leave the state alone but mean that something was cut short.
-_LIMIT_WARNINGS = ('mjWARN_INERTIA', 'mjWARN_CONTACTFULL', 'mjWARN_CNSTRFULL', 'mjWARN_BADCTRL')
+_LIMIT_WARNINGS = (
+    mujoco.mjtWarning.mjWARN_INERTIA,
+    mujoco.mjtWarning.mjWARN_CONTACTFULL,
+    mujoco.mjtWarning.mjWARN_CNSTRFULL,
+    mujoco.mjtWarning.mjWARN_BADCTRL,
+)
 #: Missing answers (at 10 Hz of wall time) after which holding counts as an error.
 _PATIENT_MISSES = 10
 
@@ -69,7 +75,9 @@ class Diagnostics:
         self._simulation = simulation
         self._inputs = inputs
         self._graph = graph
-        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', QoSProfile(depth=10))
+        self._publisher = node.create_publisher(
+            DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
+        )
         self._wall = time.monotonic()
         self._simulated = simulation.time
         self._misses = 0
@@ -83,7 +91,9 @@ class Diagnostics:
         message.status = [
             self._loop(runner, diverged), self._commands(), self._engine(), self._peers(),
         ]  # fmt: skip
-        message.status += [self._vehicle(i, name) for i, name in enumerate(self._simulation.vehicles)]
+        message.status += [
+            self._vehicle(i, name) for i, name in enumerate(self._simulation.vehicles)
+        ]
         self._publisher.publish(message)
 
     def destroy(self) -> None:
@@ -149,8 +159,8 @@ class Diagnostics:
     def _engine(self) -> DiagnosticStatus:
         warnings = self._simulation.data.warning
         counts = {
-            name.removeprefix('mjWARN_').lower(): int(warnings[getattr(mujoco.mjtWarning, name)].number)
-            for name in _LIMIT_WARNINGS
+            warning.name.removeprefix('mjWARN_').lower(): int(warnings[warning].number)
+            for warning in _LIMIT_WARNINGS
         }
         raised = [name for name, count in counts.items() if count]
         if raised:
@@ -173,9 +183,7 @@ class Diagnostics:
         reynolds = float('nan')
         if option.density > 0 and option.viscosity > 0:
             length = self._length(simulation.vehicles[name].body_id)
-            reynolds = float(
-                reynolds_number(speed, length, option.density, option.viscosity)
-            )
+            reynolds = float(reynolds_number(speed, length, option.density, option.viscosity))
         return self._status(
             f'vehicle {name}', _OK, 'moving' if speed else 'at rest',
             speed_through_medium_m_s=f'{speed:.4f}', reynolds_number=f'{reynolds:.4g}',

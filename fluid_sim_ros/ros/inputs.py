@@ -17,9 +17,9 @@ from std_msgs.msg import Float64MultiArray
 
 from fluid_sim_ros.errors import CommandError, ConfigError, FluidSimError, listed
 from fluid_sim_ros.ros.cdr import read_float64_multi_array, read_joint_state, read_stamped_pair
-from fluid_sim_ros.scene import Vehicle
 from fluid_sim_ros.scene_schema import ScheduledEvent
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.vehicle import Vehicle
 
 #: Wall time between two looks at which topics have publishers [s].
 REFRESH_PERIOD = 0.1
@@ -94,9 +94,7 @@ class Inputs:
         self._add('current', TwistStamped, lambda s, d: self._medium(s, d, 'current'))
         self._choose_awaited(simulation, settings['lockstep.wait_for'])
         self._guard = node.create_guard_condition(lambda: None, callback_group=self._group)
-        self._wait_set = _rclpy.WaitSet(
-            len(self.inputs), 1, 0, 0, 0, 0, node.context.handle
-        )
+        self._wait_set = _rclpy.WaitSet(len(self.inputs), 1, 0, 0, 0, 0, node.context.handle)
         self._missing: list[Input] = []
         self._missing_step = -1
         self._refreshed_at = 0.0
@@ -180,7 +178,7 @@ class Inputs:
     # ---- the runner's source ---------------------------------------------------------------
 
     def poll(self, simulation: Simulation) -> None:
-        """Apply what has arrived; topics that nobody publishes are looked at ten times a second."""
+        """Apply what has arrived; topics without a publisher are looked at ten times a second."""
         now = time.monotonic()
         if now - self._refreshed_at > REFRESH_PERIOD:
             self._refreshed_at = now
@@ -279,9 +277,7 @@ class Inputs:
             )
         return vehicle.thrust_range
 
-    def _thrust(
-        self, simulation: Simulation, vehicle: Vehicle, values: Any, scale: Any
-    ) -> bool:
+    def _thrust(self, simulation: Simulation, vehicle: Vehicle, values: Any, scale: Any) -> bool:
         if scale is not None and len(values) == len(scale):
             values = np.where(values >= 0, values * scale[:, 1], -values * scale[:, 0])
         saturated = simulation.set_thrust(vehicle.name, values)
@@ -300,7 +296,11 @@ class Inputs:
         self, simulation: Simulation, vehicle: Vehicle, data: bytes, scale: Any
     ) -> bool:
         command = read_joint_state(data)
-        if self._settings['pacing'] == 'lockstep' and not self._by_count and command.stamp_ns != simulation.time_ns:
+        if (
+            self._settings['pacing'] == 'lockstep'
+            and not self._by_count
+            and command.stamp_ns != simulation.time_ns
+        ):
             if command.stamp_ns > simulation.time_ns:
                 raise CommandError(
                     f'stamp {command.stamp_ns} ns is ahead of the simulation '
@@ -317,7 +317,7 @@ class Inputs:
         command = read_joint_state(data)
         values = command.position if len(command.position) else command.effort
         if not command.names:
-            self.saturated += simulation.set_joints(vehicle.name, values)
+            self.saturated += simulation.set_joints(vehicle.name, values.tolist())
             return True
         if len(command.names) != len(values):
             raise CommandError(f'{len(command.names)} names, but {len(values)} values')

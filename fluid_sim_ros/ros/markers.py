@@ -11,8 +11,8 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.scene import Vehicle
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.vehicle import Vehicle
 
 _LATCHED = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL

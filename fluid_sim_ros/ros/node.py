@@ -22,10 +22,10 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.requests import RequestQueue
 from fluid_sim_ros.ros import parameters
 from fluid_sim_ros.ros.diagnostics import GraphMonitor
 from fluid_sim_ros.ros.session import Session
-from fluid_sim_ros.runner import RequestQueue
 
 Result = TypeVar('Result')
 
@@ -209,9 +209,13 @@ class FluidSimNode(LifecycleNode):
         present = parameters.read_all(self)
         values = {name: present[name] for name in names}
         try:
-            self._on_stepping_thread(lambda: self._session and self._session.change(values))
+            self._on_stepping_thread(lambda: self._change(values))
         except FluidSimError as error:
             self._report('parameters', str(error))
+
+    def _change(self, values: dict[str, Any]) -> None:
+        if self._session is not None:
+            self._session.change(values)
 
 
 def _install_signal_handlers(node: FluidSimNode) -> None:

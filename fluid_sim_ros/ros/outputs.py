@@ -20,8 +20,8 @@ from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.ros import templates
 from fluid_sim_ros.ros.inputs import REFRESH_PERIOD
 from fluid_sim_ros.runner import period_steps
-from fluid_sim_ros.scene import Vehicle
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.vehicle import Vehicle
 
 _STATE_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 _CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
@@ -78,6 +78,7 @@ class Outputs:
     def _add_vehicle(self, vehicle: Vehicle, row: Any) -> None:
         name, settings = vehicle.name, self._settings
         quat = row[nat.QUATERNION]
+        velocity = row[nat.LINEAR_VELOCITY.start : nat.ANGULAR_VELOCITY.stop]
         odometry = templates.odometry(
             name, settings['odom.pose_covariance'], settings['odom.twist_covariance']
         )
@@ -87,7 +88,7 @@ class Outputs:
             # wxyz inside, xyzw in the message
             (orientation[:24], templates.as_bytes(quat[1:])),
             (orientation[24:], templates.as_bytes(quat[:1])),
-            (twist, templates.as_bytes(row[nat.LINEAR_VELOCITY.start : nat.ANGULAR_VELOCITY.stop])),
+            (twist, templates.as_bytes(velocity)),
         ])  # fmt: skip
         columns = {'total': nat.TOTAL, 'thrust': nat.THRUST}
         columns |= {term: nat.term_columns(term) for term in nat.TERMS}
@@ -148,9 +149,7 @@ class Outputs:
             message, name, qos,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )  # fmt: skip
-        self.topics.append(
-            Topic(name, publisher, template, period, copies, needs_forces, prepare)
-        )
+        self.topics.append(Topic(name, publisher, template, period, copies, needs_forces, prepare))
 
     def destroy(self) -> None:
         """Remove the publishers from the node."""

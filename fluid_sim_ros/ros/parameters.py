@@ -4,6 +4,7 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,8 @@ TABLE: dict[str, Declared] = {
         'publishes it; empty = the thrust topic of every vehicle that has thrusters',
     ),
     'lockstep.on_timeout': Declared(
-        'hold', 'without an answer: hold and publish again, continue, or stop',
+        'hold',
+        'without an answer: hold and publish again, continue, or stop',
         choices=TIMEOUT_RULES,
     ),
     'lockstep.timeout': Declared(
@@ -97,7 +99,8 @@ TABLE: dict[str, Declared] = {
         0.5,
         '[s] age at which a thrust command is stale and thrust goes to zero (simulated time; wall '
         'time with free pacing); 0 = off',
-        low=0, live=True,
+        low=0,
+        live=True,
     ),
     'thrust.unit': Declared(
         'newton', 'unit of thrust commands; normalized = share of the limit', choices=THRUST_UNITS
@@ -157,7 +160,7 @@ USE_SIM_TIME_REFUSED = (
 def _descriptor(declared: Declared) -> ParameterDescriptor:
     descriptor = ParameterDescriptor(description=declared.description, dynamic_typing=True)
     if declared.choices:
-        descriptor.additional_constraints = f'one of: {listed(c or "(empty)" for c in declared.choices)}'
+        descriptor.additional_constraints = f'one of: {_choices(declared)}'
     bounded = math.isfinite(declared.low) or math.isfinite(declared.high)
     if bounded and isinstance(declared.default, float):
         low, high = max(declared.low, -1e300), min(declared.high, 1e300)
@@ -166,6 +169,10 @@ def _descriptor(declared: Declared) -> ParameterDescriptor:
         high = int(min(declared.high, 2**62))
         descriptor.integer_range = [IntegerRange(from_value=int(declared.low), to_value=high)]
     return descriptor
+
+
+def _choices(declared: Declared) -> str:
+    return listed(choice or '(empty)' for choice in declared.choices)
 
 
 def check(name: str, value: Any) -> str | None:
@@ -181,14 +188,16 @@ def check(name: str, value: Any) -> str | None:
     elif type(value) is not type(default):
         return f'{where} is not of type {type(default).__name__}'
     if declared.choices and value not in declared.choices:
-        return f'{where} is not allowed; allowed: {listed(c or "(empty)" for c in declared.choices)}'
+        return f'{where} is not allowed; allowed: {_choices(declared)}'
     if isinstance(default, int | float) and not isinstance(default, bool):
         return _check_range(where, declared, [value])
     return None
 
 
 def _check_array(where: str, declared: Declared, value: Any) -> str | None:
-    if not isinstance(value, Sequence) and not hasattr(value, '__len__') or isinstance(value, str):
+    if (not isinstance(value, Sequence) and not hasattr(value, '__len__')) or isinstance(
+        value, str
+    ):
         return f'{where} is not an array'
     if isinstance(declared.default[0], str):
         return None if all(isinstance(v, str) for v in value) else f'{where}: not all are strings'
@@ -258,7 +267,7 @@ def check_parameter_files(arguments: Sequence[str]) -> None:
         If a ``--params-file`` is missing or holds more than flat ROS parameters.
 
     """
-    for flag, value in zip(arguments, arguments[1:], strict=False):
+    for flag, value in pairwise(arguments):
         if flag == '--params-file':
             _check_parameter_file(Path(value))
 

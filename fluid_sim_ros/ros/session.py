@@ -8,19 +8,13 @@ from rclpy.node import Node
 
 from fluid_sim_ros.environment import whole_steps
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
+from fluid_sim_ros.pacing import Lockstep, Pacing, RealTime
+from fluid_sim_ros.requests import RequestQueue
 from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.markers import VehicleMarkers
 from fluid_sim_ros.ros.outputs import Outputs
-from fluid_sim_ros.runner import (
-    Lockstep,
-    Pacing,
-    RealTime,
-    RequestQueue,
-    Runner,
-    duration_steps,
-    period_steps,
-)
+from fluid_sim_ros.runner import Runner, duration_steps, period_steps
 from fluid_sim_ros.simulation import Simulation
 
 #: Wall time between two publications of the present state while held in lockstep [s].
@@ -139,7 +133,7 @@ class Session:
         if period % odometry:
             raise ConfigError(
                 f"parameter 'lockstep.period': {settings['lockstep.period']:g} s is not a "
-                f"multiple of the odometry period {1 / settings['odom.rate']:g} s, so some states "
+                f'multiple of the odometry period {1 / settings["odom.rate"]:g} s, so some states '
                 'that must be answered would not be published'
             )
         rule = settings['lockstep.on_timeout']
@@ -215,5 +209,3 @@ class Session:
 
     def _time(self) -> str:
         return f'time {self.simulation.time:.9f} s, step {self.simulation.step_count}'
-
-

@@ -5,7 +5,8 @@ import numpy as np
 
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.scene import CompiledScene, Scene, Vehicle
+from fluid_sim_ros.scene import CompiledScene, Scene
+from fluid_sim_ros.vehicle import Vehicle
 
 
 def plant_of(scene: str, vehicle: str) -> tuple[Plant, Vehicle]:

@@ -119,7 +119,9 @@ def test_a_name_that_the_model_lacks_is_named_with_those_it_has(write_scene, tex
 
 def test_a_model_without_a_free_body_says_so(tmp_path):
     path = tmp_path / 'fixed.xml'
-    path.write_text('<mujoco><worldbody><body name="b"><geom size="1"/></body></worldbody></mujoco>')
+    path.write_text(
+        '<mujoco><worldbody><body name="b"><geom size="1"/></body></worldbody></mujoco>'
+    )
     with pytest.raises(ModelError, match='no body with a free joint'):
         Scene.load(path).compile()
 
@@ -127,7 +129,9 @@ def test_a_model_without_a_free_body_says_so(tmp_path):
 def test_a_broken_model_is_one_line(tmp_path):
     path = tmp_path / 'broken.xml'
     path.write_text('<mujoco><worldbody><body nam="b"/></worldbody></mujoco>')
-    with pytest.raises(ModelError, match=r"broken\.xml: .*unrecognized attribute: 'nam'") as caught:
+    with pytest.raises(
+        ModelError, match=r"broken\.xml: .*unrecognized attribute: 'nam'"
+    ) as caught:
         Scene.load(path).compile()
     assert '\n' not in str(caught.value)
 

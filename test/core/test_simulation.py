@@ -138,7 +138,7 @@ def test_thrust_saturates_and_counts(boat):
     ('call', 'line'),
     [
         (lambda s: s.set_thrust('ship', [1]), "vehicle 'ship' is not in the scene; it has: boat"),
-        (lambda s: s.set_thrust('boat', [1, 2]), r"got 2 values, needs 1 \(push\)"),
+        (lambda s: s.set_thrust('boat', [1, 2]), r'got 2 values, needs 1 \(push\)'),
         (lambda s: s.set_thrust('boat', [np.nan]), 'not finite'),
         (lambda s: s.set_thrust('boat', [np.inf]), 'not finite'),
         (lambda s: s.set_thrust('boat', ['x']), 'are not numbers'),
@@ -220,7 +220,9 @@ def test_time_is_exact_from_the_step_count():
 def test_a_blow_up_is_reported_at_its_step_with_body_and_hint(boat):
     boat.step(10)
     boat.data.qvel[6] = 1e12
-    with pytest.raises(DivergedError, match=r"t = 0\.02\d* s in body '\w+' .*try a timestep below") as e:
+    with pytest.raises(
+        DivergedError, match=r"t = 0\.02\d* s in body '\w+' .*try a timestep below"
+    ) as e:
         boat.step(1000)
     assert boat.step_count < 20
     assert e.value.body in ('fin', 'boat')
@@ -244,5 +246,5 @@ def test_a_fast_light_sphere_diverges_with_euler_and_says_so(tmp_path):
     )
     simulation = Simulation(path)
     simulation.data.qvel[0] = 50.0
-    with pytest.raises(DivergedError, match="body 'ball' .*implicitfast"):
+    with pytest.raises(DivergedError, match=r"body 'ball' .*implicitfast"):
         simulation.step(5000)

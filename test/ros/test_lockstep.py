@@ -1,4 +1,4 @@
-"""Lockstep with topic controllers: deterministic, patient, and no answer is lost or taken twice."""
+"""Lockstep with topic controllers: deterministic, patient, no answer lost or taken twice."""
 
 import os
 import subprocess
@@ -10,7 +10,6 @@ import pytest
 from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64MultiArray
 
 from test.ros.harness import Peer, node, stamp_ns, wait_until
 
@@ -89,7 +88,9 @@ def test_a_late_controller_is_served_the_state_that_waits():
     with node(scene='quadrotor', pacing='lockstep', duration=0.5) as process, Peer() as peer:
         peer.watch_diagnostics()
         wait_until(
-            lambda: 'no answer on x500/cmd/thrust_stamped' in peer.diagnostics.get('loop', (0, ''))[1],
+            lambda: (
+                'no answer on x500/cmd/thrust_stamped' in peer.diagnostics.get('loop', (0, ''))[1]
+            ),
             'the report of the missing answer',
         )
         assert peer.diagnostics['loop'][2]['step'] == '0'
@@ -171,4 +172,3 @@ def test_every_one_of_a_burst_of_counted_commands_is_taken_once():
                 if stamp:
                     assert effort == pytest.approx(5.0 + 1e-4 * (stamp // period - 1), abs=1e-12)
             assert process.alive
-

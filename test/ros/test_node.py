@@ -185,7 +185,8 @@ def test_a_diverging_run_is_an_error_that_reset_ends(tmp_path):
     with Peer() as peer:
         peer.watch_diagnostics()
         rates = dict.fromkeys(
-            ('odom__rate', 'wrench__rate', 'medium__rate', 'joint_states__rate', 'clock__rate'), 50.0
+            ('odom__rate', 'wrench__rate', 'medium__rate', 'joint_states__rate', 'clock__rate'),
+            50.0,
         )
         with node(scene=scene, **rates) as process:
             wait_until(
@@ -202,22 +203,21 @@ def test_a_diverging_run_is_an_error_that_reset_ends(tmp_path):
 
 
 def test_parameters_fixed_and_live():
-    with Peer() as peer:
-        with node(scene='sphere', realtime__factor=2) as process:
-            refused = set_parameter(peer, 'scene', **string('rov'))
-            assert not refused.successful
-            assert 'fixed while the node is configured' in refused.reason
-            refused = set_parameter(
-                peer, 'use_sim_time', type=ParameterType.PARAMETER_BOOL, bool_value=True
-            )
-            assert 'publishes /clock' in refused.reason
-            factor = set_parameter(
-                peer, 'realtime.factor', type=ParameterType.PARAMETER_DOUBLE, double_value=-1.0
-            )
-            assert not factor.successful
-            assert set_parameter(peer, 'pacing', **string('free')).successful
-            assert set_parameter(peer, 'pacing', **string('realtime')).successful
-            assert process.alive
+    with Peer() as peer, node(scene='sphere', realtime__factor=2) as process:
+        refused = set_parameter(peer, 'scene', **string('rov'))
+        assert not refused.successful
+        assert 'fixed while the node is configured' in refused.reason
+        refused = set_parameter(
+            peer, 'use_sim_time', type=ParameterType.PARAMETER_BOOL, bool_value=True
+        )
+        assert 'publishes /clock' in refused.reason
+        factor = set_parameter(
+            peer, 'realtime.factor', type=ParameterType.PARAMETER_DOUBLE, double_value=-1.0
+        )
+        assert not factor.successful
+        assert set_parameter(peer, 'pacing', **string('free')).successful
+        assert set_parameter(peer, 'pacing', **string('realtime')).successful
+        assert process.alive
 
 
 def test_a_second_publisher_of_clock_and_a_namesake_are_reported():
@@ -226,8 +226,10 @@ def test_a_second_publisher_of_clock_and_a_namesake_are_reported():
         rival.node.create_publisher(Clock, '/clock', 1)
         with node(scene='sphere'):
             wait_until(
-                lambda: '2 publishers of /clock: /fluid_sim_node, /rival'
-                in peer.diagnostics.get('graph', (0, ''))[1],
+                lambda: (
+                    '2 publishers of /clock: /fluid_sim_node, /rival'
+                    in peer.diagnostics.get('graph', (0, ''))[1]
+                ),
                 'the second clock',
             )
             with node(scene='sphere'):
@@ -309,7 +311,10 @@ def test_two_instances_in_namespaces_do_not_meet():
             {'scene': 'quadrotor', 'pacing': 'lockstep', 'lockstep__wait_for': '[a/b]'},
             "'a/b' is no command topic of this scene; it has: x500/cmd/thrust",
         ),
-        ({'scene': 'quadrotor', 'pacing': 'lockstep', 'odom__rate': 50.0}, 'not a multiple of the'),
+        (
+            {'scene': 'quadrotor', 'pacing': 'lockstep', 'odom__rate': 50.0},
+            'not a multiple of the',
+        ),
     ],
 )
 def test_a_wrong_start_is_one_line_and_exit_code_2(parameters, words):
