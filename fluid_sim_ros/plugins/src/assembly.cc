@@ -53,8 +53,7 @@ void ApplyForces(const mjModel* m, mjData* d, const BodyFluid& body, const Motio
                  const BodyForces& forces) {
   mjtNum wrench[6] = {0, 0, 0, 0, 0, 0};
   for (const auto& term : forces.term) mju_addTo(wrench, term, 6);
-  AddGeneralizedForce(m, d, body, motion, wrench, d->qfrc_fluid);
-  AddGeneralizedForce(m, d, body, motion, wrench, d->qfrc_passive);
+  ApplyWrench(m, d, body, motion, wrench);
 }
 
 // The secant D_s makes drag implicit for the first-order integrators: (M + A + h D_s) qacc = f.

@@ -105,7 +105,7 @@ void AddBuoyancy(const mjModel* m, const BodyFluid& body, const Flow& flow,
   mju_addToScl3(moment, body.center_shift, volume);
   mju_addToScl3(moment, body.point, -volume);  // volume times centre, from O
   if (!(m->opt.disableflags & mjDSBL_GRAVITY)) {
-    mju_mulMatTVec3(gravity, motion.rotation, m->opt.gravity);
+    RotateBack(gravity, motion.rotation, m->opt.gravity);
     mju_scl3(force, gravity, -flow.density);
   }
   mju_addToScl3(force, flow_accel_b, flow.density);
@@ -117,8 +117,8 @@ void AddBuoyancy(const mjModel* m, const BodyFluid& body, const Flow& flow,
 void AddAtEllipsoid(const DragEllipsoid& part, const mjtNum arm[3], const Wrench& local,
                     mjtNum scale, mjtNum target[6]) {
   mjtNum force[3], torque[3];
-  mju_mulMatVec3(force, part.rotation, local.force);
-  mju_mulMatVec3(torque, part.rotation, local.torque);
+  Rotate(force, part.rotation, local.force);
+  Rotate(torque, part.rotation, local.torque);
   AddCross(torque, arm, force);
   mju_addToScl3(target, force, scale);
   mju_addToScl3(target + 3, torque, scale);
@@ -132,8 +132,8 @@ void AddEllipsoidForces(const BodyFluid& body, const DragEllipsoid& part, const 
   mju_sub3(arm, part.position, body.point);
   mju_copy3(velocity, nu);
   AddCross(velocity, nu + 3, arm);
-  mju_mulMatTVec3(v, part.rotation, velocity);
-  mju_mulMatTVec3(w, part.rotation, nu + 3);
+  RotateBack(v, part.rotation, velocity);
+  RotateBack(w, part.rotation, nu + 3);
   const Resistance k = EllipsoidResistance(part, body.options, fluid, w, v);
   Wrench drag, viscous;
   mju_scl3(drag.force, v, -k.linear);
@@ -183,12 +183,12 @@ Motion BodyMotion(const mjModel* m, const mjData* d, const BodyFluid& body) {
   Motion out;
   out.rotation = d->xmat + 9 * body.id;
   mjtNum arm_w[3];
-  mju_mulMatVec3(arm_w, out.rotation, body.point);
+  Rotate(arm_w, out.rotation, body.point);
   mju_add3(out.point_w, d->xpos + 3 * body.id, arm_w);
   if (body.free_dof >= 0) {  // at rest in qacc, O only turns: w x (w x r)
     const mjtNum *qvel = d->qvel + body.free_dof, *w = qvel + 3;
     mjtNum swing[3];
-    mju_mulMatTVec3(out.velocity, out.rotation, qvel);
+    RotateBack(out.velocity, out.rotation, qvel);
     mju_copy3(out.velocity + 3, w);
     mju_cross(swing, w, body.point);
     mju_addTo3(out.velocity, swing);
@@ -212,10 +212,10 @@ Motion BodyMotion(const mjModel* m, const mjData* d, const BodyFluid& body) {
   mju_copy3(a_w, accel + 3);
   AddCross(a_w, accel, arm);
   AddCross(a_w, spatial, v_w);  // from the spatial to the point's acceleration
-  mju_mulMatTVec3(out.velocity, out.rotation, v_w);
-  mju_mulMatTVec3(out.velocity + 3, out.rotation, spatial);
-  mju_mulMatTVec3(out.bias, out.rotation, a_w);
-  mju_mulMatTVec3(out.bias + 3, out.rotation, accel);
+  RotateBack(out.velocity, out.rotation, v_w);
+  RotateBack(out.velocity + 3, out.rotation, spatial);
+  RotateBack(out.bias, out.rotation, a_w);
+  RotateBack(out.bias + 3, out.rotation, accel);
   return out;
 }
 
@@ -234,8 +234,8 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
   for (int i = 0; i < count; ++i) {
     const Flow& flow = flows[i];
     mjtNum nu[6], flow_b[3], flow_accel_b[3];
-    mju_mulMatTVec3(flow_b, motion.rotation, flow.velocity);
-    mju_mulMatTVec3(flow_accel_b, motion.rotation, flow.acceleration);
+    RotateBack(flow_b, motion.rotation, flow.velocity);
+    RotateBack(flow_accel_b, motion.rotation, flow.acceleration);
     mju_copy(nu, motion.velocity, 6);
     mju_subFrom3(nu, flow_b);
     if (body.added_mass) {

@@ -20,48 +20,49 @@ void ComArm(const mjModel* m, const mjData* d, const BodyFluid& body, const Moti
 // Rigid inertia of a body about its frame's origin, in body axes.
 void RigidMatrix(const mjModel* m, const BodyFluid& body, mjtNum out[36]) {
   const mjtNum mass = m->body_mass[body.id];
-  const mjtNum* diagonal = m->body_inertia + 3 * body.id;
-  mjtNum rotation[9];
-  mju_zero(out, 36);
+  const mjtNum *diagonal = m->body_inertia + 3 * body.id, *center = m->body_ipos + 3 * body.id;
+  mjtNum rotation[9], scaled[9], inertia[9];
   mju_quat2Mat(rotation, m->body_iquat + 4 * body.id);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      mjtNum sum = 0;
-      for (int k = 0; k < 3; ++k) sum += rotation[3 * i + k] * diagonal[k] * rotation[3 * j + k];
-      out[6 * (3 + i) + 3 + j] = sum;
-    }
-  }
-  AddIsotropic6(out, mass, 0, m->body_ipos + 3 * body.id);
+  for (int i = 0; i < 9; ++i) scaled[i] = rotation[i] * diagonal[i % 3];
+  MultiplyTransposed3(inertia, scaled, rotation);
+  mju_zero(out, 36);
+  for (int i = 0; i < 9; ++i) out[6 * (3 + i / 3) + 3 + i % 3] = inertia[i];
+  AddIsotropic6(out, mass, 0, center);
 }
 
 }  // namespace
 
-void AddGeneralizedForce(const mjModel* m, const mjData* d, const BodyFluid& body,
-                         const Motion& motion, const mjtNum wrench[6], mjtNum* target) {
+void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
+                 const mjtNum wrench[6]) {
   mjtNum force_w[3], torque[3];
-  mju_mulMatVec3(force_w, motion.rotation, wrench);
+  Rotate(force_w, motion.rotation, wrench);
   if (body.free_dof >= 0) {  // world force, torque about the origin in body axes
     mju_copy3(torque, wrench + 3);
     AddCross(torque, body.point, wrench);
-    mju_addTo3(target + body.free_dof, force_w);
-    mju_addTo3(target + body.free_dof + 3, torque);
+    for (int i = 0; i < 6; ++i) {
+      const mjtNum value = i < 3 ? force_w[i] : torque[i - 3];
+      d->qfrc_fluid[body.free_dof + i] += value;
+      d->qfrc_passive[body.free_dof + i] += value;
+    }
     return;
   }
   mjtNum arm[3];
   ComArm(m, d, body, motion, arm);
-  mju_mulMatVec3(torque, motion.rotation, wrench + 3);
+  Rotate(torque, motion.rotation, wrench + 3);
   AddCross(torque, arm, force_w);
   for (int dof = ChainDof(m, body.id); dof >= 0; dof = m->dof_parentid[dof]) {
     const mjtNum* axis = d->cdof + 6 * dof;
-    target[dof] += mju_dot3(axis, torque) + mju_dot3(axis + 3, force_w);
+    const mjtNum value = mju_dot3(axis, torque) + mju_dot3(axis + 3, force_w);
+    d->qfrc_fluid[dof] += value;
+    d->qfrc_passive[dof] += value;
   }
 }
 
 void WriteFreeInertia(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
                       const mjtNum g[36]) {
-  mjtNum total[36], shifted[36], to_origin[3];
+  mjtNum total[36], shifted[36];
+  const mjtNum to_origin[3] = {-body.point[0], -body.point[1], -body.point[2]};
   RigidMatrix(m, body, total);
-  mju_scl3(to_origin, body.point, -1);
   ShiftMatrix6(shifted, g, to_origin);
   AddScaled36(total, shifted, 1);
   // velocities of the free joint: linear in world axes, angular in body axes
@@ -116,8 +117,8 @@ void PointAcceleration(const mjModel* m, const mjData* d, const BodyFluid& body,
   }
   ComArm(m, d, body, motion, arm);
   AddCross(linear, angular, arm);
-  mju_mulMatTVec3(out, motion.rotation, linear);
-  mju_mulMatTVec3(out + 3, motion.rotation, angular);
+  RotateBack(out, motion.rotation, linear);
+  RotateBack(out + 3, motion.rotation, angular);
 }
 
 }  // namespace fluid_sim

@@ -10,9 +10,10 @@
 
 namespace fluid_sim {
 
-// Generalized force J'(force, torque) of a wrench about O in body axes, added to `target`[nv].
-void AddGeneralizedForce(const mjModel* m, const mjData* d, const BodyFluid& body,
-                         const Motion& motion, const mjtNum wrench[6], mjtNum* target);
+// Generalized force J'(force, torque) of a wrench about O in body axes, added to qfrc_fluid and
+// qfrc_passive (which stays the sum of its parts).
+void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
+                 const mjtNum wrench[6]);
 
 // d->M := rigid inertia + J'GJ on the block of a free tree: analytic, so nothing must be undone.
 void WriteFreeInertia(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,

@@ -54,45 +54,20 @@ void RotatePlane(mjtNum a[36], mjtNum vectors[36], int p, int q) {
 
 }  // namespace
 
-void AddCross(mjtNum out[3], const mjtNum b[3], const mjtNum c[3]) {
-  out[0] += b[1] * c[2] - b[2] * c[1];
-  out[1] += b[2] * c[0] - b[0] * c[2];
-  out[2] += b[0] * c[1] - b[1] * c[0];
-}
-
 void CrossMatrix(mjtNum out[9], const mjtNum x[3]) {
   const mjtNum s[9] = {0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0};
   mju_copy(out, s, 9);
 }
 
-void Multiply3(mjtNum out[9], const mjtNum a[9], const mjtNum b[9]) {
-  for (int i = 0; i < 9; ++i) {
-    const mjtNum *row = a + i / 3 * 3, *column = b + i % 3;
-    out[i] = row[0] * column[0] + row[1] * column[3] + row[2] * column[6];
-  }
-}
-
-void MultiplyTransposed3(mjtNum out[9], const mjtNum a[9], const mjtNum b[9]) {
-  for (int i = 0; i < 9; ++i) out[i] = mju_dot3(a + i / 3 * 3, b + i % 3 * 3);
-}
-
-void MultiplyMatrix6(mjtNum out[6], const mjtNum a[36], const mjtNum x[6]) {
-  for (int i = 0; i < 6; ++i) {
-    const mjtNum* row = a + 6 * i;
-    out[i] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3] + row[4] * x[4] +
-             row[5] * x[5];
-  }
-}
-
-void AddScaled36(mjtNum target[36], const mjtNum source[36], mjtNum scale) {
-  for (int i = 0; i < 36; ++i) target[i] += scale * source[i];
-}
-
 void ShiftMatrix6(mjtNum out[36], const mjtNum a[36], const mjtNum offset[3]) {
   // A H changes the angular columns only: A_v + (...) S; H' A then the angular rows only
   mjtNum s[9], right[36];
-  CrossMatrix(s, offset);
   mju_copy(right, a, 36);
+  if (offset[0] == 0 && offset[1] == 0 && offset[2] == 0) {
+    mju_copy(out, right, 36);
+    return;
+  }
+  CrossMatrix(s, offset);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) right[6 * i + 3 + j] += a[6 * i + k] * s[3 * k + j];
@@ -119,6 +94,13 @@ void RotateMatrix6(mjtNum out[36], const mjtNum a[36], const mjtNum rotation[9])
 }
 
 void AddIsotropic6(mjtNum target[36], mjtNum linear, mjtNum angular, const mjtNum center[3]) {
+  if (center[0] == 0 && center[1] == 0 && center[2] == 0) {
+    for (int i = 0; i < 3; ++i) {
+      target[7 * i] += linear;
+      target[7 * (3 + i)] += angular;
+    }
+    return;
+  }
   mjtNum s[9];
   CrossMatrix(s, center);
   for (int i = 0; i < 3; ++i) {

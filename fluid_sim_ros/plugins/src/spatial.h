@@ -11,21 +11,56 @@ namespace fluid_sim {
 
 constexpr mjtNum kPi = 3.14159265358979323846;
 
-// a + b x c
-void AddCross(mjtNum out[3], const mjtNum b[3], const mjtNum c[3]);
+// The small products are inline: they make up most of an evaluation.
+
+// out += b x c
+inline void AddCross(mjtNum out[3], const mjtNum b[3], const mjtNum c[3]) {
+  out[0] += b[1] * c[2] - b[2] * c[1];
+  out[1] += b[2] * c[0] - b[0] * c[2];
+  out[2] += b[0] * c[1] - b[1] * c[0];
+}
+
+// out = R x and out = R' x
+inline void Rotate(mjtNum out[3], const mjtNum r[9], const mjtNum x[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = r[3 * i] * x[0] + r[3 * i + 1] * x[1] + r[3 * i + 2] * x[2];
+}
+
+inline void RotateBack(mjtNum out[3], const mjtNum r[9], const mjtNum x[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = r[i] * x[0] + r[3 + i] * x[1] + r[6 + i] * x[2];
+}
+
+// out = A B and out = A B' for 3x3 matrices, row major
+inline void Multiply3(mjtNum out[9], const mjtNum a[9], const mjtNum b[9]) {
+  for (int i = 0; i < 9; ++i) {
+    const mjtNum *row = a + i / 3 * 3, *column = b + i % 3;
+    out[i] = row[0] * column[0] + row[1] * column[3] + row[2] * column[6];
+  }
+}
+
+inline void MultiplyTransposed3(mjtNum out[9], const mjtNum a[9], const mjtNum b[9]) {
+  for (int i = 0; i < 9; ++i) {
+    const mjtNum *row = a + i / 3 * 3, *other = b + i % 3 * 3;
+    out[i] = row[0] * other[0] + row[1] * other[1] + row[2] * other[2];
+  }
+}
+
+// out = A x for 6x6 A
+inline void MultiplyMatrix6(mjtNum out[6], const mjtNum a[36], const mjtNum x[6]) {
+  for (int i = 0; i < 6; ++i) {
+    const mjtNum* row = a + 6 * i;
+    out[i] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3] + row[4] * x[4] +
+             row[5] * x[5];
+  }
+}
+
+// target += scale * source, 36 numbers
+inline void AddScaled36(mjtNum* __restrict target, const mjtNum* __restrict source,
+                        mjtNum scale) {
+  for (int i = 0; i < 36; ++i) target[i] += scale * source[i];
+}
 
 // out = S with S y = x cross y
 void CrossMatrix(mjtNum out[9], const mjtNum x[3]);
-
-// out = A B and out = A B' for 3x3 matrices, row major
-void Multiply3(mjtNum out[9], const mjtNum a[9], const mjtNum b[9]);
-void MultiplyTransposed3(mjtNum out[9], const mjtNum a[9], const mjtNum b[9]);
-
-// out = A x for 6x6 A
-void MultiplyMatrix6(mjtNum out[6], const mjtNum a[36], const mjtNum x[6]);
-
-// target += scale * source, 36 numbers
-void AddScaled36(mjtNum target[36], const mjtNum source[36], mjtNum scale);
 
 // The same kinetic energy about a new point: A' = H'AH, H = [1 S(offset); 0 1], where offset goes
 // from the old to the new point; keeps symmetry and rank.
