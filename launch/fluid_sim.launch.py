@@ -23,8 +23,8 @@ def nodes(context):
     }
     # An argument that is not given leaves the word to the file, and the file to the node.
     files = [values['params_file']] if values['params_file'] else []
-    scene = {'scene': values['scene']} if values['scene'] else {}
-    pacing = {'pacing': values['pacing']} if values['pacing'] else {}
+    scene = [{'scene': values['scene']}] if values['scene'] else []
+    pacing = [{'pacing': values['pacing']}] if values['pacing'] else []
     common = {
         'package': 'fluid_sim_ros',
         'namespace': values['namespace'] or None,
@@ -32,14 +32,14 @@ def nodes(context):
     }
     simulator = Node(
         executable='fluid_sim_node',
-        parameters=[*files, scene | pacing],
+        parameters=[*files, *scene, *pacing],
         # the controllers have nothing to do without it
         on_exit=Shutdown(reason='the simulator ended'),
         **common,
     )
     if values['controller'] == 'none':
         return [simulator]
-    controller = Node(executable=values['controller'], parameters=[*files, scene], **common)
+    controller = Node(executable=values['controller'], parameters=[*files, *scene], **common)
     return [simulator, controller]
 
 
