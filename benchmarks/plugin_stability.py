@@ -1,0 +1,1 @@
+"""Kinetic energy of body and fluid over m_A/m and integrator; the lagged method beside it."""
