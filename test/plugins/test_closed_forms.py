@@ -1,0 +1,14 @@
+"""Closed forms at the bounds of benchmarks/plugin_closed_forms.py."""
+
+import plugin_closed_forms as bench
+import pytest
+
+
+@pytest.fixture(scope='module')
+def errors():
+    return bench.measure(13)
+
+
+@pytest.mark.parametrize('name', bench.BOUNDS)
+def test_closed_form(errors, name):
+    assert errors[name] <= bench.BOUNDS[name]
