@@ -56,7 +56,6 @@ class Allocator:
             raise ConfigError('thrust limits: 0 N must lie within the limits of every thruster')
         self.matrix = b
         self.limits = low_high
-        self.thrusts = np.zeros(b.shape[1])
         #: Smallest factor that a group got in the last call; 1 when nothing was cut.
         self.scale = 1.0
 
@@ -67,10 +66,10 @@ class Allocator:
         # pseudo-inverse of the commanded rows only: an axis that nobody asks for is free to move
         inverse = np.zeros((b.shape[1], 6))
         inverse[:, used] = np.linalg.pinv(b[used])
-        self._inverse = inverse
-        self._groups = [(np.array(group), inverse[:, group].copy()) for group in columns]
-        self._low, self._high = low_high[:, 0].copy(), low_high[:, 1].copy()
-        self._room = np.empty(b.shape[1])
+        # plain numbers: on so few of them, array calls take longer than the arithmetic
+        self._rows = [tuple(row) for row in inverse.tolist()]
+        self._groups = [_rows_of(inverse, group) for group in columns]
+        self._limits = [(low, high) for low, high in low_high.tolist()]
 
     @staticmethod
     def _columns(group: Sequence[str]) -> list[int]:
@@ -84,39 +83,56 @@ class Allocator:
         """Number of independent directions of the wrench that the thrusters reach."""
         return int(np.linalg.matrix_rank(self.matrix))
 
-    def allocate(self, wrench_b: ArrayLike) -> Array:
+    def allocate(self, wrench_b: Sequence[float]) -> list[float]:
         """
         Return the thrusts for a wrench.
 
         Parameters
         ----------
         wrench_b
-            Force [N] and torque [N m] about the centre of mass, body axes, shape (6,).
+            Force [N] and torque [N m] about the centre of mass, body axes, six numbers.
 
         Returns
         -------
-        Thrusts [N], shape (n,); the same array at every call.
+        Thrusts [N], one per thruster.
 
         """
-        thrusts, wrench = self.thrusts, np.asarray(wrench_b, dtype=float)
-        np.dot(self._inverse, wrench, out=thrusts)
+        thrusts = _times(self._rows, wrench_b)
         self.scale = 1.0
-        if (thrusts >= self._low).all() and (thrusts <= self._high).all():
-            return thrusts
-        thrusts.fill(0.0)
-        for axes, inverse in self._groups:
-            self._add(inverse @ wrench[axes])
+        for thrust, (low, high) in zip(thrusts, self._limits, strict=True):
+            if not low <= thrust <= high:
+                return self._by_groups(wrench_b)
         return thrusts
 
-    def _add(self, wanted: Array) -> None:
-        """Add as much of ``wanted`` as the limits allow, keeping its direction."""
-        thrusts, room = self.thrusts, self._room
-        np.subtract(np.where(wanted > 0, self._high, self._low), thrusts, out=room)
-        factor = 1.0
-        for want, left in zip(wanted.tolist(), room.tolist(), strict=True):
-            # room has the sign of want, or is 0 up to rounding
-            if abs(want) > 1e-12:
-                factor = min(factor, max(0.0, left / want))
-        self.scale = min(self.scale, factor)
-        thrusts += factor * wanted
-        np.clip(thrusts, self._low, self._high, out=thrusts)  # rounding only
+    def _by_groups(self, wrench_b: Sequence[float]) -> list[float]:
+        """Build the wrench up group by group, each as far as the limits allow."""
+        thrusts = [0.0] * len(self._limits)
+        for rows in self._groups:
+            wanted = _times(rows, wrench_b)
+            factor = 1.0
+            for want, thrust, (low, high) in zip(wanted, thrusts, self._limits, strict=True):
+                # room has the sign of want, or is 0 up to rounding
+                room = (high if want > 0 else low) - thrust
+                if abs(want) > 1e-12:
+                    factor = min(factor, max(0.0, room / want))
+            self.scale = min(self.scale, factor)
+            thrusts = [
+                min(max(thrust + factor * want, low), high)  # min, max: rounding only
+                for want, thrust, (low, high) in zip(wanted, thrusts, self._limits, strict=True)
+            ]
+        return thrusts
+
+
+_Rows = list[tuple[float, ...]]
+
+
+def _rows_of(inverse: Array, columns: list[int]) -> _Rows:
+    """Return the inverse with all columns but those of one group set to zero."""
+    share = np.zeros_like(inverse)
+    share[:, columns] = inverse[:, columns]
+    return [tuple(row) for row in share.tolist()]
+
+
+def _times(rows: _Rows, wrench: Sequence[float]) -> list[float]:
+    x, y, z, p, q, r = wrench
+    return [a * x + b * y + c * z + d * p + e * q + f * r for a, b, c, d, e, f in rows]

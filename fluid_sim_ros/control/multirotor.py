@@ -4,9 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.gains import Gains, gain
@@ -23,10 +20,10 @@ PRIORITY = (('fz',), ('tx', 'ty'), ('tz',))
 class MultirotorGains(Gains):
     """Gains and limits; chosen for the x500 at a control rate of 100 Hz."""
 
-    position: float = gain(1.2, '1/s', 'speed asked for per position error')
-    velocity: float = gain(3.5, '1/s', 'acceleration asked for per speed error')
+    position: float = gain(1.5, '1/s', 'speed asked for per position error')
+    velocity: float = gain(4.0, '1/s', 'acceleration asked for per speed error')
     integral: float = gain(
-        2.5, '1/s^2', 'growth of the acceleration per speed error: steady wind leaves no error'
+        6.0, '1/s^2', 'growth of the acceleration per speed error: steady wind leaves no error'
     )
     attitude: float = gain(9.0, '1/s', 'rate asked for per attitude error')
     rate: float = gain(25.0, '1/s', 'angular acceleration per rate error, roll and pitch')
@@ -81,7 +78,6 @@ class MultirotorController:
         self._highest = max((1.0 - self.gains.thrust_margin) * full, plant.weight)
         self._tan_tilt = math.tan(self.gains.max_tilt)
         self._clock = StampClock()
-        self._wrench = np.zeros(6)
         self._integral = [0.0, 0.0, 0.0]
         # The error to integrate at the next state: so a repeated state changes nothing.
         self._pending = [0.0, 0.0, 0.0]
@@ -105,7 +101,7 @@ class MultirotorController:
         omega_b: Sequence[float],
         target_w: Sequence[float],
         yaw: float,
-    ) -> NDArray[np.float64]:
+    ) -> list[float]:
         """
         Return the thrusts that answer a state.
 
@@ -122,7 +118,7 @@ class MultirotorController:
 
         Returns
         -------
-        Thrusts [N], shape (n,); the same array at every call.
+        Thrusts [N], one per thruster.
 
         """
         dt = self._clock.advance(time)
@@ -136,10 +132,8 @@ class MultirotorController:
         thrust = rot.to_body(r_wb, force_w)[2]
         bounded = min(max(thrust, self._lowest), self._highest)
 
-        wrench = self._wrench
-        wrench[2] = bounded
-        wrench[3:] = self._torque(r_wb, omega_b, force_w, yaw)
-        thrusts = self.allocator.allocate(wrench)
+        torque_b = self._torque(r_wb, omega_b, force_w, yaw)
+        thrusts = self.allocator.allocate((0.0, 0.0, bounded, *torque_b))
         self._pending[:] = (0.0, 0.0, 0.0) if limited or bounded != thrust else error
         return thrusts
 

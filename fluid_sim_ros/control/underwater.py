@@ -4,9 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.gains import Gains, gain
@@ -76,7 +73,6 @@ class UnderwaterController:
                 '(thrusters for every direction)'
             )
         self._clock = StampClock()
-        self._wrench = np.zeros(6)
         self._integral = [0.0, 0.0, 0.0]
         self._angular_integral = [0.0, 0.0, 0.0]
         # The errors to integrate at the next state: so a repeated state changes nothing.
@@ -99,7 +95,7 @@ class UnderwaterController:
         *,
         speed_h: Sequence[float] = (0.0, 0.0),
         place_w: Sequence[float] | None = None,
-    ) -> NDArray[np.float64]:
+    ) -> list[float]:
         """
         Return the thrusts that answer a state.
 
@@ -122,7 +118,7 @@ class UnderwaterController:
 
         Returns
         -------
-        Thrusts [N], shape (n,); the same array at every call.
+        Thrusts [N], one per thruster.
 
         """
         dt = self._clock.advance(time)
@@ -135,10 +131,8 @@ class UnderwaterController:
             position_w, rot.to_world(r_wb, velocity_b), depth, heading, speed_h, place_w
         )
         error_b = self._rate_error(r_wb, omega_b, heading)
-        wrench = self._wrench
-        wrench[:3] = self._force(r_wb, error_w)
-        wrench[3:] = self._torque(error_b)
-        thrusts = self.allocator.allocate(wrench)
+        wrench_b = (*self._force(r_wb, error_w), *self._torque(error_b))
+        thrusts = self.allocator.allocate(wrench_b)
         within = self.allocator.scale >= 1.0
         self._pending = (error_w, error_b) if within else (_NOTHING, _NOTHING)
         return thrusts

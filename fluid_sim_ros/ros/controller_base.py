@@ -10,17 +10,16 @@ which state it belongs to.
 import math
 import os
 import signal
+import struct
 import sys
 import threading
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import rclpy
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
-from numpy.typing import NDArray
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
@@ -46,6 +45,14 @@ from fluid_sim_ros.ros.vehicle_plant import plant_of
 _WAIT_NS = 50_000_000
 # The stamp follows the CDR header in odometry and answer alike.
 _STAMP = slice(4, 12)
+
+
+def thrust_template(thrusters: int) -> Template:
+    """Return sensor_msgs/JointState with one block: the efforts; its other lists are empty."""
+    template = Template().string('')
+    for _ in ('name', 'position', 'velocity'):
+        template.uint32(0)
+    return template.uint32(thrusters).doubles(thrusters).finish()
 
 
 class ControllerNode(Node, ABC):
@@ -113,19 +120,15 @@ class ControllerNode(Node, ABC):
             JointState, f'{vehicle}/cmd/thrust_stamped',
             QoSProfile(depth=10, reliability=reliable),
         )  # fmt: skip
-        message = JointState()
-        message.effort = [0.0] * len(self.vehicle.thrusters)
-
-        def mark(value: float) -> None:
-            message.effort[0] = value
-
-        self._template = Template(message, [(mark, len(message.effort))])
+        count = len(self.vehicle.thrusters)
+        self._template = thrust_template(count)
+        self._pack = struct.Struct(f'<{count}d').pack_into
         self._wait_set = _rclpy.WaitSet(2, 0, 0, 0, 0, 0, self.context.handle)
 
     # ---- what a controller adds --------------------------------------------------------------
 
     @abstractmethod
-    def answer(self, time: float, state: State) -> NDArray[np.float64]:
+    def answer(self, time: float, state: State) -> list[float]:
         """Return the thrusts [N] that answer a state; ``time`` is its stamp [s]."""
 
     @abstractmethod
@@ -172,7 +175,7 @@ class ControllerNode(Node, ABC):
             self.get_logger().info('time went back: starting anew')
         self._last_stamp_ns = state.stamp_ns
         thrusts = self.answer(state.stamp_ns * 1e-9, state)
-        if not math.isfinite(sum(thrusts.tolist())):
+        if not math.isfinite(sum(thrusts)):
             self.get_logger().error(
                 'the odometry holds numbers that are not finite: not answered',
                 throttle_duration_sec=1.0,
@@ -180,8 +183,8 @@ class ControllerNode(Node, ABC):
             return
         template = self._template
         template.stamp[:] = data[_STAMP]
-        template.blocks[0][:] = thrusts.tobytes()
-        self._publisher.publish(template.bytes())
+        self._pack(template.blocks[0], 0, *thrusts)
+        self._publisher.handle.publish_raw(template.bytes())
 
     def _on_waypoint(self, data: bytes) -> None:
         message = deserialize_message(data, PoseStamped)

@@ -3,9 +3,6 @@
 import sys
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
 from fluid_sim_ros.control.waypoints import Waypoint
@@ -29,7 +26,7 @@ class QuadController(ControllerNode):
         """Take the place to hold from the next state."""
         self._home = None
 
-    def answer(self, time: float, state: State) -> NDArray[np.float64]:
+    def answer(self, time: float, state: State) -> list[float]:
         """Return the thrusts [N] towards the present waypoint."""
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._home is None:

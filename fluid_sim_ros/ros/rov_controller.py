@@ -4,9 +4,6 @@ import math
 import sys
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
 from fluid_sim_ros.ros import controller_parameters as parameters
@@ -53,7 +50,7 @@ class RovController(ControllerNode):
         """Take the depth and heading to hold from the next state."""
         self._first = None
 
-    def answer(self, time: float, state: State) -> NDArray[np.float64]:
+    def answer(self, time: float, state: State) -> list[float]:
         """Return the thrusts [N] that hold what is wanted."""
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._first is None:

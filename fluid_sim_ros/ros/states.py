@@ -1,7 +1,7 @@
 """Reads what a controller needs from an odometry message, straight from its CDR bytes."""
 
 import struct
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from fluid_sim_ros.errors import CommandError
 
@@ -12,8 +12,7 @@ _SIZE = _TWIST_AT + 8 * (6 + 36)
 _ORDER = {b'\x00\x00': '>', b'\x00\x01': '<'}
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(NamedTuple):
     """
     State of a vehicle's base_link as its odometry has it.
 

@@ -27,7 +27,7 @@ class Loop:
         velocity_b = rot.to_body(rot.from_quaternion(q[3:7]), v[:3])
         return self.data.time, q[:3], q[3:7], velocity_b, v[3:6]
 
-    def advance(self, thrusts: np.ndarray, medium_w: Vector) -> None:
+    def advance(self, thrusts: list[float], medium_w: Vector) -> None:
         self.data.ctrl[:] = thrusts
         self.model.opt.wind = medium_w
         mujoco.mj_step(self.model, self.data, self.steps)
