@@ -9,6 +9,8 @@ import numpy as np
 from fluid_sim_ros.environment import Schedule
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.plugins import load_plugins
+from fluid_sim_ros.plugins.messages import load_error_line
+from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene_schema import (
     SceneFile,
@@ -32,13 +34,17 @@ _WATER_DENSITY = 100.0
 
 @dataclass(frozen=True)
 class CompiledScene:
-    """A MuJoCo model with the scene's names resolved to ids."""
+    """
+    A MuJoCo model with the scene's names resolved to ids.
+
+    ``streams`` names what of wind and current the scene has; ``keyframe_id`` is -1 for none.
+    """
 
     model: mujoco.MjModel
     vehicles: dict[str, Vehicle]
     schedule: Schedule
     keyframe_id: int
-    medium: str
+    streams: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -135,10 +141,10 @@ class Scene:
             _force_fluid(spec, fluid, self.model_path)
         model = _compile(spec, self.model_path)
         vehicles = self._vehicles(model)
-        medium = self.medium or ('water' if model.opt.density > _WATER_DENSITY else 'air')
         schedule = Schedule(self.schedule, model.opt.timestep)
         _check_schedule(self, vehicles)
-        return CompiledScene(model, vehicles, schedule, self._keyframe_id(model), medium)
+        streams = _streams(model, self.medium)
+        return CompiledScene(model, vehicles, schedule, self._keyframe_id(model), streams)
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
         files = self.vehicles
@@ -219,7 +225,7 @@ def _compile(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
     try:
         return spec.compile()
     except ValueError as error:
-        raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
+        raise ModelError(f'{path}: {load_error_line(error)}') from None
 
 
 def _integrator(name: str) -> mujoco.mjtIntegrator:
@@ -229,16 +235,23 @@ def _integrator(name: str) -> mujoco.mjtIntegrator:
 
 
 def _force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
-    """Put the model on one rung of the ladder: no fluid, inertia boxes, or ellipsoids."""
+    """
+    Put the model on one rung of the ladder: no fluid, inertia boxes, or stock ellipsoids.
+
+    What plugins add (buoyancy, added mass, damping, a medium) is taken away with them; a body that
+    they kept afloat gets gravcomp instead, so that a scene stays what it is.
+    """
     if fluid not in FLUID_RUNGS:
         raise ConfigError(f"fluid '{fluid}' is not known; allowed: {listed(FLUID_RUNGS)}")
+    _take_plugins_away(spec, path)
     if fluid == 'none':
         spec.option.density = 0.0
         spec.option.viscosity = 0.0
         return
     if spec.option.density <= 0 and spec.option.viscosity <= 0:
         raise ConfigError(
-            f"fluid '{fluid}': {path} sets neither density nor viscosity in <option>; set one"
+            f"fluid '{fluid}': {path} sets neither density nor viscosity, in <option> or in "
+            'fluid_sim.medium; set one'
         )
     if fluid == 'inertia':
         for geom in spec.geoms:
@@ -248,6 +261,42 @@ def _force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
         for geom in spec.geoms:
             if geom.parent.name != 'world' and (geom.contype or geom.conaffinity):
                 geom.fluid_ellipsoid = 1.0
+
+
+def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
+    """Remove fluid_sim.body and fluid_sim.medium; opt takes over the medium's lower fluid."""
+    full = _compile(spec, path)
+    config = native().plugin_config
+    implicit = []
+    for instance in range(full.nplugin):
+        for key in ('density', 'viscosity'):
+            value = config(full._address, instance, 'fluid_sim.medium', key)
+            if value:
+                setattr(spec.option, key, float(value))
+    for body in spec.bodies:
+        if body.plugin.active and body.plugin.plugin_name == 'fluid_sim.body':
+            instance = full.body_plugin[full.body(body.name).id]
+            if config(full._address, instance, 'fluid_sim.body', 'volume'):
+                body.gravcomp = 1.0
+            if body.plugin.id >= 0:  # configured on the body itself, not a named instance
+                implicit.append(body.plugin.id)
+            body.plugin.active = False
+    for number, plugin in enumerate(list(spec.plugins)):
+        if number in implicit or plugin.plugin_name.startswith('fluid_sim.'):
+            spec.delete(plugin)
+
+
+def _streams(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:
+    """Return which of wind and current a model has: both where a free surface parts two fluids."""
+    density = model.opt.density
+    for instance in range(model.nplugin):
+        surface = native().plugin_config(model._address, instance, 'fluid_sim.medium', 'surface')
+        if surface not in ('', 'none'):
+            return ('wind', 'current')
+        stated = native().plugin_config(model._address, instance, 'fluid_sim.medium', 'density')
+        density = float(stated) if stated else density
+    water = medium == 'water' if medium else density > _WATER_DENSITY
+    return ('current',) if water else ('wind',)
 
 
 def _check_schedule(scene: Scene, vehicles: dict[str, Vehicle]) -> None:

@@ -9,28 +9,27 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from fluid_sim_ros.engine import Engine
 from fluid_sim_ros.environment import Event, exact
-from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
+from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene_schema import ScheduledEvent
 from fluid_sim_ros.snapshot import ForceTorque, Snapshot, VehicleState
+from fluid_sim_ros.streams import SavedStreams, Streams
 from fluid_sim_ros.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 WRENCH_FRAMES = ('base_link', 'map')
-_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
 @dataclass(frozen=True)
 class SavedState:
     """Everything that the next step depends on; made by ``Simulation.save_state``."""
 
-    integration: Array
+    engine: Array
+    streams: SavedStreams
     step: int
-    wind_w: Array
-    current_w: Array
-    wind_enabled: bool
     wrenches: dict[str, tuple[Array, Array, str]]
     added_events: tuple[Event, ...]
 
@@ -70,40 +69,20 @@ class Simulation:
         self.scene = Scene.load(scene)
         self.seed = seed
         compiled = self.scene.compile(timestep=timestep, integrator=integrator, fluid=fluid)
-        self.medium = compiled.medium
-        self._model = compiled.model
         self._vehicles = compiled.vehicles
         self._schedule = compiled.schedule
         self._keyframe_id = compiled.keyframe_id
-        self._data = mujoco.MjData(self._model)
-        self._scratch = mujoco.MjData(self._model)
+        self._engine = Engine(compiled.model, [v.body_id for v in self._vehicles.values()])
+        self._streams = Streams(self._engine, compiled.streams)
+        self._engine_step = self._engine.step
+        self._model, self._data = self._engine.model, self._engine.data
+        self.observe = self._engine.observe
 
         period_ns = exact(self._model.opt.timestep) * 1_000_000_000
         self._ns_numerator, self._ns_denominator = period_ns.numerator, period_ns.denominator
         self._names = tuple(self._vehicles)
         self._index = {name: i for i, name in enumerate(self._names)}
-        self._bind()
-
-        self._initial_wind = self._model.opt.wind.copy()
         self.reset()
-
-    def _bind(self) -> None:
-        """Resolve every address that stepping and observing need, once."""
-        library = nat.native()
-        self._native_step = library.step
-        self._native_observe = library.observe
-        self._model_address = self._model._address
-        self._data_address = self._data._address
-        self._report = np.zeros(2)
-        self._report_address = self._report.ctypes.data
-        bases = [vehicle.body_id for vehicle in self._vehicles.values()]
-        self._bases = np.array(bases, dtype=np.int32)
-        self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
-        self._observe_arguments = (
-            self._model_address, self._data_address, self._scratch._address,
-            self._bases.ctypes.data, len(bases),
-        )  # fmt: skip
-        self._rows_address = self._rows.ctypes.data
 
     # ---- what it is ------------------------------------------------------------------------
 
@@ -120,7 +99,12 @@ class Simulation:
     @property
     def observed(self) -> mujoco.MjData:
         """The copy that the last ``observe(forces=True)`` evaluated; only to be read."""
-        return self._scratch
+        return self._engine.observed
+
+    @property
+    def streams(self) -> tuple[str, ...]:
+        """Which of wind and current the scene has."""
+        return self._streams.available
 
     @property
     def vehicles(self) -> Mapping[str, Vehicle]:
@@ -165,10 +149,10 @@ class Simulation:
         if end > self._schedule.next_step or self._wrenches:
             self._step_with_events(end)
             return
-        done = self._native_step(self._model_address, self._data_address, n, self._report_address)
+        done = self._engine_step(n)
         self._step += done
         if done != n:
-            raise self._diverged()
+            raise self._engine.divergence()
 
     def _step_with_events(self, end: int) -> None:
         while self._step < end:
@@ -180,28 +164,10 @@ class Simulation:
                 stop = self._step + 1
                 self._write_wrenches()
             n = stop - self._step
-            done = self._native_step(
-                self._model_address, self._data_address, n, self._report_address
-            )
+            done = self._engine_step(n)
             self._step += done
             if done != n:
-                raise self._diverged()
-
-    def _diverged(self) -> DivergedError:
-        time, dof = float(self._report[0]), int(self._report[1])
-        body = '(unknown)'
-        if 0 <= dof < self._model.nv:
-            body = self._model.body(self._model.dof_bodyid[dof]).name or '(unnamed)'
-        integrator = mujoco.mjtIntegrator(self._model.opt.integrator).name.removeprefix('mjINT_')
-        hint = f'try a timestep below {self.timestep:g} s'
-        if integrator in ('EULER', 'RK4'):
-            hint += ' or the integrator implicitfast'
-        return DivergedError(
-            f"the simulation diverged at t = {time:.6g} s in body '{body}' "
-            f'({integrator}, {self.timestep:g} s); {hint}',
-            time=time,
-            body=body,
-        )
+                raise self._engine.divergence()
 
     def reset(self, keyframe: str | None = None) -> None:
         """
@@ -219,19 +185,11 @@ class Simulation:
             if identity < 0:
                 names = listed(self._model.key(i).name for i in range(self._model.nkey))
                 raise CommandError(f"keyframe '{keyframe}' is not in the model; it has: {names}")
-        if identity >= 0:
-            mujoco.mj_resetDataKeyframe(self._model, self._data, identity)
-            self._data.time = 0.0
-        else:
-            mujoco.mj_resetData(self._model, self._data)
+        self._engine.reset(identity)
+        self._streams.reset()
+        self._schedule.rewind(0)
         self._step = 0
         self._wrenches: dict[str, tuple[Array, Array, str]] = {}
-        self._wind_enabled = True
-        self._wind_w = np.zeros(3)
-        self._current_w = np.zeros(3)
-        (self._current_w if self.medium == 'water' else self._wind_w)[:] = self._initial_wind
-        self._write_medium()
-        self._schedule.rewind(0)
 
     def close(self) -> None:
         """Release nothing that Python would not; here so that every source can be closed."""
@@ -315,18 +273,14 @@ class Simulation:
         Raises
         ------
         CommandError
-            Wrong length, not finite, or a scene whose only medium is water.
+            Wrong length, not finite, or a scene without air.
 
         """
-        self._check_medium('wind', 'air', 'current')
-        self._wind_w[:] = _finite('wind', velocity, 3)
-        self._write_medium()
+        self._streams.set('wind', _finite('wind', velocity, 3))
 
     def set_current(self, velocity: Sequence[float] | Array) -> None:
         """Set the current of the water; as ``set_wind``."""
-        self._check_medium('current', 'water', 'wind')
-        self._current_w[:] = _finite('current', velocity, 3)
-        self._write_medium()
+        self._streams.set('current', _finite('current', velocity, 3))
 
     def schedule(self, time_ns: int, change: ScheduledEvent) -> None:
         """
@@ -339,26 +293,15 @@ class Simulation:
 
         """
         if change.wind is not None:
-            self._check_medium('wind', 'air', 'current')
+            self._streams.check('wind')
         if change.current is not None:
-            self._check_medium('current', 'water', 'wind')
+            self._streams.check('current')
         step = -(-time_ns * self._ns_denominator // self._ns_numerator)
         self._schedule.add(Event(max(step, self._step), change))
 
     def enable_wind(self, enabled: bool) -> None:
         """Switch wind and current on or off; the commanded velocities are kept."""
-        self._wind_enabled = enabled
-        self._write_medium()
-
-    def _check_medium(self, what: str, medium: str, other: str) -> None:
-        if self.medium != medium:
-            raise CommandError(
-                f"{what}: scene '{self.scene.name}' is in {self.medium}; command the {other}"
-            )
-
-    def _write_medium(self) -> None:
-        velocity = self._current_w if self.medium == 'water' else self._wind_w
-        self._model.opt.wind = velocity if self._wind_enabled else 0.0
+        self._streams.enable(enabled)
 
     def set_wrench(
         self,
@@ -428,16 +371,6 @@ class Simulation:
 
     # ---- observation -----------------------------------------------------------------------
 
-    def observe(self, forces: bool) -> Array:
-        """
-        Return one row per vehicle with the columns of ``plugins.native``, in scene order.
-
-        With ``forces`` accelerations and wrenches are evaluated at this very state, on a copy of
-        it: the trajectory does not change. The array is overwritten by the next call.
-        """
-        self._native_observe(*self._observe_arguments, forces, self._rows_address)
-        return self._rows
-
     def snapshot(self) -> Snapshot:
         """Return the state of every vehicle at this step boundary, as copies."""
         rows = self.observe(forces=False).copy()
@@ -473,14 +406,10 @@ class Simulation:
 
     def save_state(self) -> SavedState:
         """Return everything that the next step depends on; going on from it is bit-identical."""
-        integration = np.empty(mujoco.mj_stateSize(self._model, _STATE))
-        mujoco.mj_getState(self._model, self._data, integration, _STATE)
         return SavedState(
-            integration=integration,
+            engine=self._engine.save(),
+            streams=self._streams.save(),
             step=self._step,
-            wind_w=self._wind_w.copy(),
-            current_w=self._current_w.copy(),
-            wind_enabled=self._wind_enabled,
             wrenches=dict(self._wrenches),
             added_events=self._schedule.added(),
         )
@@ -495,19 +424,10 @@ class Simulation:
             If the state is of another model.
 
         """
-        size = mujoco.mj_stateSize(self._model, _STATE)
-        if state.integration.shape != (size,):
-            raise FluidSimError(
-                f'the saved state has {state.integration.size} numbers, the model needs {size}: '
-                'it is of another model'
-            )
-        mujoco.mj_setState(self._model, self._data, state.integration, _STATE)
+        self._engine.load(state.engine)
+        self._streams.load(state.streams)
         self._step = state.step
-        self._wind_w = state.wind_w.copy()
-        self._current_w = state.current_w.copy()
-        self._wind_enabled = state.wind_enabled
         self._wrenches = dict(state.wrenches)
-        self._write_medium()
         self._schedule.rewind(state.step, state.added_events)
 
 

@@ -39,7 +39,7 @@ class Native:
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
     the interpreter lock while they run. ``set_medium(model, data, wind, current) -> int`` takes
-    addresses of three numbers or 0. ``explicit_force(model, data, scratch, out)`` and
+    addresses of three numbers or 0, ``get_medium`` the same. ``explicit_force(model, data, scratch, out)`` and
     ``kinetic_energy(model, data, scratch, out)`` work on the scratch data. See plugins/src/api.cc
     for their meaning.
     """
@@ -57,6 +57,9 @@ class Native:
         self.set_medium: Callable[[int, int, int, int], int] = library.fsr_set_medium
         library.fsr_set_medium.argtypes = [pointer] * 4
         library.fsr_set_medium.restype = integer
+        self.get_medium: Callable[[int, int, int, int], int] = library.fsr_get_medium
+        library.fsr_get_medium.argtypes = [pointer] * 4
+        library.fsr_get_medium.restype = integer
         self.explicit_force: Callable[[int, int, int, int], None] = library.fsr_explicit_force
         library.fsr_explicit_force.argtypes = [pointer] * 4
         library.fsr_explicit_force.restype = None
@@ -66,6 +69,9 @@ class Native:
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p
+        self._plugin_config = library.fsr_plugin_config
+        library.fsr_plugin_config.argtypes = [pointer, integer, ctypes.c_char_p, ctypes.c_char_p]
+        library.fsr_plugin_config.restype = ctypes.c_char_p
         if library.fsr_row_width() != ROW_WIDTH or library.fsr_term_count() != len(TERMS):
             raise PluginError(
                 f'{plugin_library()} and native.py are of different versions; reinstall the package'
@@ -77,6 +83,11 @@ class Native:
         while (key := self._plugin_key(plugin.encode(), len(keys))) is not None:
             keys.append(key.decode())
         return tuple(keys)
+
+    def plugin_config(self, model: int, instance: int, plugin: str, key: str) -> str:
+        """Return a key's value in a plugin instance of a model (its address), or ''."""
+        value = self._plugin_config(model, instance, plugin.encode(), key.encode())
+        return value.decode() if value else ''
 
 
 @cache

@@ -99,10 +99,11 @@ class Outputs:
                 f'{name}/wrench/{term}', WrenchStamped, template, 'wrench.rate', copies,
                 needs_forces=True,
             )  # fmt: skip
-        template = templates.twist('map')
-        which = 'current' if self._simulation.medium == 'water' else 'wind'
-        copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
-        self._add(f'{name}/medium/{which}', TwistStamped, template, 'medium.rate', copies)
+        # of the fluid that the base_link origin is in, where a scene has two
+        for stream in self._simulation.streams:
+            template = templates.twist('map')
+            copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
+            self._add(f'{name}/medium/{stream}', TwistStamped, template, 'medium.rate', copies)
         self._add_joint_states(vehicle)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:

@@ -61,7 +61,7 @@ def test_a_bare_model_has_its_free_bodies_as_vehicles(model):
     assert boat.thrusters == ('m1', 'm2')
     assert boat.joints == ('fin',)
     np.testing.assert_array_equal(boat.thrust_range, [[-2, 3], [-np.inf, np.inf]])
-    assert compiled.medium == 'water'
+    assert compiled.streams == ('current',)
 
 
 def test_yaml_names_vehicle_thrusters_and_keyframe(write_scene):

@@ -143,7 +143,7 @@ def test_thrust_saturates_and_counts(boat):
         (lambda s: s.set_thrust('boat', [np.inf]), 'not finite'),
         (lambda s: s.set_thrust('boat', ['x']), 'are not numbers'),
         (lambda s: s.set_joints('boat', {'rudder': 1}), "'rudder' is not one of them: turn"),
-        (lambda s: s.set_wind([1, 0, 0]), 'is in water; command the current'),
+        (lambda s: s.set_wind([1, 0, 0]), 'is in water only; command the current'),
         (lambda s: s.set_current([1, 0]), 'got 2 values, needs 3'),
         (lambda s: s.set_wrench('boat', [1, 0, 0], [0, 0, 0], 'odom'), 'allowed: base_link, map'),
         (lambda s: s.reset('up'), "keyframe 'up' is not in the model"),
@@ -248,3 +248,99 @@ def test_a_fast_light_sphere_diverges_with_euler_and_says_so(tmp_path):
     simulation.data.qvel[0] = 50.0
     with pytest.raises(DivergedError, match=r"body 'ball' .*implicitfast"):
         simulation.step(5000)
+
+
+# ---- models with plugins -----------------------------------------------------------------------
+
+AMPHIBIOUS = """
+<mujoco>
+  <option timestep="0.002" integrator="implicitfast"/>
+  <extension>
+    <plugin plugin="fluid_sim.body"/>
+    <plugin plugin="fluid_sim.medium"><instance name="sea">
+      <config key="surface" value="0"/><config key="density" value="1000"/>
+      <config key="viscosity" value="1e-3"/><config key="density_above" value="1.2"/>
+      <config key="viscosity_above" value="1.8e-5"/><config key="current" value=".1 0 0"/>
+    </instance></plugin>
+  </extension>
+  <worldbody><body name="buoy" pos="0 0 -1" simple="false"><freejoint/>
+    <geom type="ellipsoid" size=".3 .2 .1" density="500" fluidshape="ellipsoid"/>
+    <plugin plugin="fluid_sim.body"><config key="added_mass" value="auto"/>
+      <config key="volume" value="auto"/><config key="drag" value="ellipsoid"/></plugin>
+  </body></worldbody>
+</mujoco>
+"""
+
+
+@pytest.fixture
+def buoy(tmp_path):
+    path = tmp_path / 'buoy.xml'
+    path.write_text(AMPHIBIOUS)
+    return Simulation(path)
+
+
+def test_a_scene_with_a_surface_has_wind_and_current_with_limited_slew(buoy):
+    assert buoy.streams == ('wind', 'current')
+    buoy.set_current([1.1, 0, 0])
+    buoy.set_wind([3, 0, 0])
+    buoy.step(50)
+    current = buoy.snapshot().vehicles['buoy'].medium_velocity_w[0]
+    assert current == pytest.approx(0.1 + 0.1, abs=1e-12)  # 1 m/s^2 by default, 0.1 s
+    buoy.reset()
+    assert buoy.snapshot().vehicles['buoy'].medium_velocity_w[0] == 0.1
+
+
+def test_a_plugin_scene_is_saved_and_loaded_bit_for_bit(buoy):
+    buoy.set_current([1, 0.5, 0])
+    buoy.step(30)
+    state = buoy.save_state()
+    buoy.step(100)
+    expected = buoy.data.qpos.copy()
+    buoy.reset()
+    buoy.load_state(state)
+    buoy.step(100)
+    np.testing.assert_array_equal(buoy.data.qpos, expected)
+
+
+def test_published_terms_of_a_plugin_body_hold_buoyancy_and_added_mass(buoy):
+    buoy.step(10)
+    terms = buoy.wrench('buoy')
+    volume = 4 / 3 * np.pi * 0.3 * 0.2 * 0.1
+    np.testing.assert_allclose(np.linalg.norm(terms['buoyancy'][0]), 1000 * volume * 9.81)
+    assert terms['added_mass'][0][2] < 0  # it accelerates upward
+
+
+@pytest.mark.parametrize(
+    ('fluid', 'terms'), [('none', set()), ('ellipsoid', {'drag', 'viscous', 'added_mass'})]
+)
+def test_a_lower_rung_takes_the_plugins_away_and_keeps_the_body_afloat(tmp_path, fluid, terms):
+    path = tmp_path / 'buoy.xml'
+    path.write_text(AMPHIBIOUS)
+    simulation = Simulation(path, fluid=fluid)
+    assert simulation.model.nplugin == 0
+    assert simulation.model.opt.density == (0 if fluid == 'none' else 1000)
+    simulation.data.qvel[:6] = [0.3, 0.2, 0.1, 0.3, 0.1, 0.2]
+    found = {name for name, (force, _) in simulation.wrench('buoy').items() if force.any()}
+    assert terms <= found
+    assert 'buoyancy' not in found
+    before = simulation.data.qvel[2]
+    simulation.step(1)
+    if fluid == 'none':
+        assert simulation.data.qvel[2] == pytest.approx(before, abs=1e-12)
+
+
+def test_a_plugin_that_refuses_its_configuration_is_one_line(tmp_path):
+    path = tmp_path / 'buoy.xml'
+    path.write_text(AMPHIBIOUS.replace('key="volume" value="auto"', 'key="volume" value="-1"'))
+    with pytest.raises(FluidSimError, match=r'buoy\.xml: fluid_sim\.body: .*volume') as caught:
+        Simulation(path)
+    assert '\n' not in str(caught.value)
+
+
+def test_a_blow_up_is_reported_by_the_error_alone(buoy, capfd, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    buoy.data.qvel[0] = np.nan
+    with pytest.raises(DivergedError):
+        buoy.step(3)
+    assert capfd.readouterr() == ('', '')
+    assert not (tmp_path / 'MUJOCO_LOG.TXT').exists()

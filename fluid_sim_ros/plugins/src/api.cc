@@ -3,9 +3,11 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "assembly.h"
 #include "fluid_terms.h"
+#include "quiet.h"
 #include "stock_terms.h"
 
 #define FSR_API extern "C" __attribute__((visibility("default")))
@@ -139,10 +141,20 @@ FSR_API const char* fsr_plugin_key(const char* name, int i) {
   return plugin && i >= 0 && i < plugin->nattribute ? plugin->attributes[i] : nullptr;
 }
 
+// Value of a configuration key of a plugin instance, or null unless it is of plugin `name`.
+FSR_API const char* fsr_plugin_config(const mjModel* m, int instance, const char* name,
+                                      const char* key) {
+  if (instance < 0 || instance >= m->nplugin) return nullptr;
+  const mjpPlugin* plugin = mjp_getPluginAtSlot(m->plugin[instance]);
+  if (!plugin || std::strcmp(plugin->name, name) != 0) return nullptr;
+  return mj_getPluginConfig(m, instance, key);
+}
+
 // Take up to n steps and stop at the first bad one (NaN, or a MuJoCo warning that resets the state
 // silently). Returns the number of good steps; report[0] = time at the start of the bad step,
 // report[1] = its dof or -1.
 FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
+  const QuietWarnings quiet;  // a bad step is in the report, MuJoCo need not print it too
   const int before = FatalWarnings(d);
   for (int i = 0; i < n; ++i) {
     const mjtNum time = d->time;
@@ -200,6 +212,16 @@ FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind,
   mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
   if (current) SetTarget(medium.current, state, d->time, current);
   if (wind) SetTarget(medium.wind, state + kDriveState, d->time, wind);
+  return 1;
+}
+
+// Targets of wind and current in d [m/s]; returns 0 and writes nothing where no medium is in charge.
+FSR_API int fsr_get_medium(const mjModel* m, const mjData* d, double* wind, double* current) {
+  const Assembly* assembly = FindAssembly(m, d);
+  if (!assembly || !assembly->medium.in_charge()) return 0;
+  const mjtNum* state = d->plugin_state + m->plugin_stateadr[assembly->medium.instance];
+  mju_copy3(current, state + kTarget);
+  mju_copy3(wind, state + kDriveState + kTarget);
   return 1;
 }
 

@@ -1,0 +1,116 @@
+"""MuJoCo's model and data, stepped and observed through the plugin library's C functions."""
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.errors import DivergedError, FluidSimError
+from fluid_sim_ros.plugins import native as nat
+
+Array = NDArray[np.float64]
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+class Engine:
+    """
+    A model and its data with every address resolved once.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    bases
+        Body ids of the vehicles, in the order of the observed rows.
+
+    Attributes
+    ----------
+    model, data
+        What is stepped; to be changed only between steps.
+    observed
+        The copy that the last ``observe(forces=True)`` evaluated; only to be read.
+
+    """
+
+    def __init__(self, model: mujoco.MjModel, bases: Sequence[int]) -> None:
+        self.model = model
+        self.data = mujoco.MjData(model)
+        self.observed = mujoco.MjData(model)
+        library = nat.native()
+        self._step = library.step
+        self._observe = library.observe
+        self._report = np.zeros(2)
+        self._bases = np.array(bases, dtype=np.int32)
+        self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
+        self.addresses = (model._address, self.data._address)
+        self._step_addresses = (*self.addresses, self._report.ctypes.data)
+        self._observe_addresses = (
+            *self.addresses, self.observed._address, self._bases.ctypes.data, len(bases),
+        )  # fmt: skip
+        self._rows_address = self._rows.ctypes.data
+
+    def step(self, n: int) -> int:
+        """Take up to n steps, each checked; return how many were good (see ``divergence``)."""
+        model, data, report = self._step_addresses
+        return self._step(model, data, n, report)
+
+    def divergence(self) -> DivergedError:
+        """Return the error that describes the bad step which ended the last ``step``."""
+        model = self.model
+        time, dof = float(self._report[0]), int(self._report[1])
+        body = '(unknown)'
+        if 0 <= dof < model.nv:
+            body = model.body(model.dof_bodyid[dof]).name or '(unnamed)'
+        integrator = mujoco.mjtIntegrator(model.opt.integrator).name.removeprefix('mjINT_')
+        hint = f'try a timestep below {model.opt.timestep:g} s'
+        if integrator in ('EULER', 'RK4'):
+            hint += ' or the integrator implicitfast'
+        return DivergedError(
+            f"the simulation diverged at t = {time:.6g} s in body '{body}' "
+            f'({integrator}, {model.opt.timestep:g} s); {hint}',
+            time=time,
+            body=body,
+        )
+
+    def observe(self, forces: bool) -> Array:
+        """
+        Return one row per base with the columns of ``plugins.native``.
+
+        With ``forces`` accelerations and wrenches are evaluated at this very state, on a copy of
+        it: the trajectory does not change. The array is overwritten by the next call.
+        """
+        self._observe(*self._observe_addresses, forces, self._rows_address)
+        return self._rows
+
+    def reset(self, keyframe_id: int) -> None:
+        """Go to a keyframe, or with -1 to the model's initial state, at time 0."""
+        if keyframe_id >= 0:
+            mujoco.mj_resetDataKeyframe(self.model, self.data, keyframe_id)
+            self.data.time = 0.0
+        else:
+            mujoco.mj_resetData(self.model, self.data)
+
+    def save(self) -> Array:
+        """Return everything in the data that the next step depends on."""
+        state = np.empty(mujoco.mj_stateSize(self.model, _STATE))
+        mujoco.mj_getState(self.model, self.data, state, _STATE)
+        return state
+
+    def load(self, state: Array) -> None:
+        """
+        Go to a saved state.
+
+        Raises
+        ------
+        FluidSimError
+            If the state is of another model.
+
+        """
+        size = mujoco.mj_stateSize(self.model, _STATE)
+        if state.shape != (size,):
+            raise FluidSimError(
+                f'the saved state has {state.size} numbers, the model needs {size}: '
+                'it is of another model'
+            )
+        mujoco.mj_setState(self.model, self.data, state, _STATE)
