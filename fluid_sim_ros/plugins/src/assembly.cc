@@ -154,12 +154,13 @@ const Assembly* FindAssembly(const mjModel* m, const mjData* d) {
 
 void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]) {
   mj_makeM(m, d);
-  mj_markStack(d);
-  mjtNum* momentum = mj_stackAllocNum(d, m->nv);
-  mj_mulM(m, d, momentum, d->qvel);
-  out[0] = 0.5 * mju_dot(momentum, d->qvel, m->nv);
-  mj_freeStack(d);
-  out[1] = 0;
+  out[0] = out[1] = 0;
+  for (int i = 0; i < m->nv; ++i) {  // lower triangle: off-diagonal entries count twice
+    const int row = m->M_rowadr[i], last = row + m->M_rownnz[i] - 1;
+    mjtNum momentum = 0.5 * d->M[last] * d->qvel[i];
+    for (int k = row; k < last; ++k) momentum += d->M[k] * d->qvel[m->M_colind[k]];
+    out[0] += momentum * d->qvel[i];
+  }
   const Assembly* assembly = FindAssembly(m, d);
   if (!assembly) return;
   for (const BodyFluid& body : assembly->bodies) {
