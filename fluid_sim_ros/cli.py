@@ -133,13 +133,13 @@ def _scenes(arguments: argparse.Namespace) -> int:
 
 def _demo(rest: Sequence[str]) -> int:
     try:
-        from fluid_sim_ros.ros import demo
+        from fluid_sim_ros.ros.demo import main as demo
     except ModuleNotFoundError as error:
         raise MissingExtraError(
             f'the demo needs {error.name}, which is not installed; '
             'fluid_sim doctor says what to type'
         ) from None
-    return int(demo.main(rest) or 0)
+    return int(demo(rest) or 0)
 
 
 def _doctor(arguments: argparse.Namespace) -> int:

@@ -91,7 +91,7 @@ def test_scenes_lists_every_scene_with_a_description(capsys):
     ('arguments', 'message'),
     [
         (['run', 'submarine'], "scene 'submarine' is not known; scenes: ellipsoid"),
-        (['run', 'rov', '--wind', '1', '0', '0'], "the scene is in water only"),
+        (['run', 'rov', '--wind', '1', '0', '0'], 'the scene is in water only'),
         (['run', 'rov', '--current', 'nan', '0', '0'], 'current'),
         (['run', 'rov', '--duration', '-1'], 'duration -1 s: must be finite and above 0'),
         (['run', 'rov', '--duration', 'nan'], 'duration nan s: must be finite and above 0'),
