@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from fluid_sim_ros import Simulation, cli, scene_names
+from fluid_sim_ros.resources import config_folder
 
 
 def result_of(capsys, *arguments):
@@ -80,16 +81,17 @@ def test_run_writes_a_file_and_shows_the_table_too(capsys, tmp_path):
     assert 'real-time factor' in capsys.readouterr().out
 
 
-def test_scenes_lists_every_scene_with_a_description(capsys):
+def test_scenes_lists_every_scene_and_describes_those_with_a_file(capsys):
     rows = result_of(capsys, 'scenes')
     assert [row['name'] for row in rows] == scene_names()
-    assert all(row['description'] for row in rows)
+    described = {row['name'] for row in rows if row['description']}
+    assert described == {path.stem for path in (config_folder() / 'scenes').glob('*.yaml')}
 
 
 @pytest.mark.parametrize(
     ('arguments', 'message'),
     [
-        (['run', 'submarine'], "scene 'submarine' is not known; scenes: ellipsoid"),
+        (['run', 'submarine'], "scene 'submarine' is not known; scenes: "),
         (['run', 'sphere', '--wind', '1', '0', '0'], 'the scene is in water only'),
         (['run', 'rov', '--current', 'nan', '0', '0'], 'current'),
         (['run', 'rov', '--duration', '-1'], 'duration -1 s: must be finite and above 0'),
