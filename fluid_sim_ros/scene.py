@@ -273,14 +273,19 @@ def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
             value = config(full._address, instance, 'fluid_sim.medium', key)
             if value:
                 setattr(spec.option, key, float(value))
+    ours = {plugin.name for plugin in spec.plugins if plugin.plugin_name == 'fluid_sim.body'}
     for body in spec.bodies:
-        if body.plugin.active and body.plugin.plugin_name == 'fluid_sim.body':
+        reference = body.plugin
+        if reference.active and (
+            reference.plugin_name == 'fluid_sim.body' or reference.name in ours - {''}
+        ):
             instance = full.body_plugin[full.body(body.name).id]
             if config(full._address, instance, 'fluid_sim.body', 'volume'):
                 body.gravcomp = 1.0
-            if body.plugin.id >= 0:  # configured on the body itself, not a named instance
-                implicit.append(body.plugin.id)
-            body.plugin.active = False
+            if reference.id >= 0:  # configured on the body itself, not a named instance
+                implicit.append(reference.id)
+            reference.name = ''
+            reference.active = False
     for number, plugin in enumerate(list(spec.plugins)):
         if number in implicit or plugin.plugin_name.startswith('fluid_sim.'):
             spec.delete(plugin)

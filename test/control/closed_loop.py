@@ -1,36 +1,43 @@
-"""Controllers closed around plain MuJoCo models; times and stamps as over ROS, without it."""
+"""Controllers closed around the simulation of their scene; stamps as over ROS, without it."""
 
+import dataclasses
 from collections.abc import Callable
 
 import mujoco
 import numpy as np
 
+from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
-from fluid_sim_ros.scene import Scene
 
 Vector = tuple[float, float, float]
+STILL: Vector = (0.0, 0.0, 0.0)
 
 
 class Loop:
-    """A stock model of one free body and the state in the form that odometry has it."""
+    """A scene without its schedule, one vehicle, and the state in the form of odometry."""
 
-    def __init__(self, scene: str, rate: float) -> None:
-        compiled = Scene.load(scene).compile()
-        self.model, self.data = compiled.model, mujoco.MjData(compiled.model)
-        mujoco.mj_resetDataKeyframe(self.model, self.data, compiled.keyframe_id)
-        self.steps = round(1 / (rate * self.model.opt.timestep))
+    def __init__(self, scene: str, rate: float, medium: str) -> None:
+        self.simulation = Simulation(dataclasses.replace(Scene.load(scene), schedule=()))
+        self.data = self.simulation.data
+        self.steps = round(1 / (rate * self.simulation.timestep))
+        (self._vehicle,) = self.simulation.vehicles
+        self._medium_w = STILL
+        self._set_medium = getattr(self.simulation, f'set_{medium}')  # wind or current
 
     def state(self) -> tuple[float, list[float], list[float], rot.Vector3, list[float]]:
         q, v = self.data.qpos.tolist(), self.data.qvel.tolist()
         velocity_b = rot.to_body(rot.from_quaternion(q[3:7]), v[:3])
-        return self.data.time, q[:3], q[3:7], velocity_b, v[3:6]
+        return self.simulation.time, q[:3], q[3:7], velocity_b, v[3:6]
 
     def advance(self, thrusts: list[float], medium_w: Vector) -> None:
-        self.data.ctrl[:] = thrusts
-        self.model.opt.wind = medium_w
-        mujoco.mj_step(self.model, self.data, self.steps)
+        simulation = self.simulation
+        simulation.set_thrust(self._vehicle, thrusts)
+        if medium_w != self._medium_w:
+            self._medium_w = medium_w
+            self._set_medium(medium_w)
+        simulation.step(self.steps)
 
 
 def fly(
@@ -38,13 +45,13 @@ def fly(
     seconds: float,
     *,
     target: Callable[[float], Vector],
-    wind: Callable[[float], Vector] = lambda t: (0.0, 0.0, 0.0),
+    wind: Callable[[float], Vector] = lambda t: STILL,
     yaw: float = 0.0,
     quat: tuple[float, float, float, float] | None = None,
     rate: float = 100.0,
 ) -> np.ndarray:
     """Return rows of time, position (3), yaw, thrusts (4)."""
-    loop, rows = Loop('quadrotor', rate), []
+    loop, rows = Loop('quadrotor', rate, 'wind'), []
     if quat is not None:
         loop.data.qpos[3:7] = np.array(quat) / np.linalg.norm(quat)
     for _ in range(round(seconds * rate)):
@@ -62,13 +69,13 @@ def dive(
     *,
     depth: Callable[[float], float] = lambda t: 5.0,
     heading: Callable[[float], float] = lambda t: 0.0,
-    current: Callable[[float], Vector] = lambda t: (0.0, 0.0, 0.0),
+    current: Callable[[float], Vector] = lambda t: STILL,
     push: Callable[[mujoco.MjData], None] = lambda data: None,
     rate: float = 50.0,
     **hold: object,
 ) -> np.ndarray:
     """Return rows of time, position (3), yaw, tilt, velocity (3), thrusts (8)."""
-    loop, rows = Loop('rov', rate), []
+    loop, rows = Loop('rov', rate, 'current'), []
     for _ in range(round(seconds * rate)):
         state = loop.state()
         thrusts = controller.step(*state, depth(state[0]), heading(state[0]), **hold)

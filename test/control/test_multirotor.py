@@ -67,7 +67,7 @@ def test_without_the_integrator_the_wind_leaves_an_error() -> None:
         wind=lambda t: (6.0, 0.0, 0.0),
     )  # fmt: skip
     # drag / (m K_v K_p), the balance of the proportional loops
-    loop = Loop('quadrotor', 100.0)
+    loop = Loop('quadrotor', 100.0, 'wind')
     loop.advance([PLANT.weight / 4] * 4, (6.0, 0.0, 0.0))
     expected = loop.data.qfrc_fluid[0] / (PLANT.mass * gains.velocity * gains.position)
     assert rows[-1, 1] == pytest.approx(expected, rel=0.05)

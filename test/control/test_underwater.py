@@ -19,10 +19,12 @@ def controller() -> UnderwaterController:
     return UnderwaterController(PLANT)
 
 
-def test_rest_stays_rest() -> None:
+def test_rest_stays_rest_on_the_thrust_that_carries_the_weight() -> None:
     rows = dive(controller(), 2.0)
-    assert np.abs(rows[:, 9:]).max() < 1e-9
-    assert np.abs(rows[:, Z] + 5.0).max() < 1e-9
+    carried = -PLANT.weight / 4  # the vertical thrusters push down when positive
+    expected = np.tile([0.0] * 4 + [carried] * 4, (len(rows), 1))
+    assert rows[:, 9:] == pytest.approx(expected, abs=1e-6)
+    assert np.abs(rows[:, Z] + 5.0).max() < 1e-6
 
 
 def test_depth_and_heading_steps_settle_level() -> None:
