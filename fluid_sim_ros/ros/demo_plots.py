@@ -34,7 +34,8 @@ def trajectory(recording: 'Recording', targets: Array, path: Path) -> Path:
     times, position = recording.odometry[:, 0], recording.odometry[:, 1:4]
     with mpl.rc_context(_STYLE):
         figure = plt.figure(figsize=(12, 7), layout='constrained')
-        left, right = figure.subfigures(1, 2, width_ratios=(1, 1.7))
+        halves: Any = figure.subfigures(1, 2, width_ratios=(1, 1.7))
+        left, right = halves
         figure.suptitle('A quadrotor goes to a waypoint and holds it in a gust')
         above, near = left.subplots(2, 1)
         _draw_path(above, recording, targets)

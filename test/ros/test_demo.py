@@ -1,0 +1,59 @@
+"""The demo, shortened: two processes, a recording, plots and a summary; and what goes wrong."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.ros import demo
+from fluid_sim_ros.ros.children import Child
+
+pytestmark = pytest.mark.ros
+
+
+def test_demo_writes_what_it_promises(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / 'out'
+    assert demo.main(['--out', str(out), '--duration', '12', '--json', '-']) == 0
+    printed = capsys.readouterr()
+    result = json.loads(printed.out)
+    assert result == json.loads((out / 'summary.json').read_text())
+    assert 'real-time factor' in printed.err and 'largest fluid force' in printed.err
+
+    assert result['simulated_s'] == pytest.approx(12.0)
+    # every state is recorded, the first one included: lockstep waits at time 0
+    assert result['states_received'] == result['wrenches_received'] == 1201
+    assert result['gust_m_s'] == pytest.approx(6.0)
+    assert result['error_before_gust_m'] < 0.05
+    assert 0.01 < result['error_in_gust_m'] < 0.1
+    assert result['error_after_gust_m'] is None
+    # drag of the inertia box at 6 m/s: 2 rho r_j r_k v^2, from 0.8 N along an axis
+    assert 0.5 < result['largest_fluid_force_n'] < 1.2
+    assert 10.0 <= result['largest_fluid_force_at_s'] <= 12.0
+    for name in ('trajectory.png', 'wrench.png'):
+        assert (out / name).read_bytes().startswith(b'\x89PNG')
+        assert (out / name).stat().st_size > 20_000
+
+
+def test_a_child_that_dies_is_shown_with_its_last_words(tmp_path: Path) -> None:
+    child = Child(
+        'fluid_sim_node', 'fluid_sim_ros.ros.node', ['--ros-args', '-p', 'scene:=nowhere'],
+        {}, tmp_path / 'node.log',
+    )  # fmt: skip
+    child.process.wait(30)
+    with pytest.raises(FluidSimError) as caught:
+        child.check()
+    assert 'fluid_sim_node ended with exit code 2' in str(caught.value)
+    assert "scene 'nowhere' is not known" in str(caught.value)
+    assert child.stop() == 2
+
+
+def test_bad_options_are_one_line(tmp_path: Path) -> None:
+    blocked = tmp_path / 'file'
+    blocked.write_text('')
+    with pytest.raises(FluidSimError, match=r'--out .*file/out'):
+        demo.main(['--out', str(blocked / 'out')])
+    with pytest.raises(FluidSimError, match='--duration -1'):
+        demo.main(['--out', str(tmp_path), '--duration', '-1'])

@@ -1,0 +1,89 @@
+"""What controllers read from an odometry's bytes and write into an answer's."""
+
+import struct
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from nav_msgs.msg import Odometry
+from rclpy.serialization import deserialize_message, serialize_message
+from sensor_msgs.msg import JointState
+
+from fluid_sim_ros.errors import CommandError
+from fluid_sim_ros.ros.controller_base import thrust_template
+from fluid_sim_ros.ros.states import read_odometry
+
+numbers = st.lists(st.floats(-1e6, 1e6), min_size=13, max_size=13)
+
+
+def odometry(frame: str, child: str, values: list[float], stamp_ns: int = 0) -> Odometry:
+    message = Odometry()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+    message.header.frame_id, message.child_frame_id = frame, child
+    pose, twist = message.pose.pose, message.twist.twist
+    fields = [(pose.position, 'xyz'), (pose.orientation, 'wxyz')]
+    fields += [(twist.linear, 'xyz'), (twist.angular, 'xyz')]
+    source = iter(values)
+    for part, names in fields:
+        for name in names:
+            setattr(part, name, next(source))
+    message.pose.covariance = np.arange(36.0)
+    message.twist.covariance = -np.arange(36.0)
+    return message
+
+
+@settings(derandomize=True)
+@given(st.text('abc/_', max_size=20), st.text('abc/_', max_size=20), numbers,
+       st.integers(0, 2**31 * 1_000_000_000 - 1))  # fmt: skip
+def test_reads_what_was_serialised(
+    frame: str, child: str, values: list[float], stamp_ns: int
+) -> None:
+    state = read_odometry(serialize_message(odometry(frame, child, values, stamp_ns)))
+    assert state.stamp_ns == stamp_ns
+    found = [*state.position_w, *state.quat_wb_wxyz, *state.velocity_b, *state.omega_b]
+    assert found == values
+
+
+def test_reads_big_endian_too() -> None:
+    little = serialize_message(odometry('', '', [float(i) for i in range(13)], 1_500_000_002))
+    head = struct.unpack('<iI', little[4:12])
+    # behind the stamp: two strings of one zero byte each, padded; then 85 doubles
+    doubles = np.frombuffer(little[28 : 28 + 8 * 85], '<f8')
+    text = struct.pack('>I', 1) + b'\x00\x00\x00\x00'
+    big = b'\x00\x00\x00\x00' + struct.pack('>iI', *head) + 2 * text
+    big += doubles.astype('>f8').tobytes()
+    state = read_odometry(big)
+    assert state.stamp_ns == 1_500_000_002
+    assert state.position_w == (0.0, 1.0, 2.0) and state.omega_b == (10.0, 11.0, 12.0)
+
+
+def test_a_truncated_message_is_one_clear_error_at_every_length() -> None:
+    whole = serialize_message(odometry('x500/odom', 'x500/base_link', [1.0] * 13))
+    for size in range(len(whole) - 1):
+        with pytest.raises(CommandError, match='malformed odometry'):
+            read_odometry(whole[:size])
+
+
+def test_a_length_that_lies_is_an_error() -> None:
+    whole = bytearray(serialize_message(odometry('x500/odom', 'b', [1.0] * 13)))
+    whole[12:16] = struct.pack('<I', 0xFFFFFFF0)
+    with pytest.raises(CommandError, match='malformed odometry'):
+        read_odometry(bytes(whole))
+
+
+@pytest.mark.parametrize('thrusters', [1, 4, 8])
+def test_answer_template_is_a_joint_state(thrusters: int) -> None:
+    template = thrust_template(thrusters)
+    template.stamp[:] = struct.pack('<iI', 12, 34)
+    efforts = [0.5 + i for i in range(thrusters)]
+    template.blocks[0][:] = np.array(efforts).tobytes()
+    message = deserialize_message(template.bytes(), JointState)
+    assert (message.header.stamp.sec, message.header.stamp.nanosec) == (12, 34)
+    assert list(message.effort) == efforts
+    assert not message.name and not message.position and not message.velocity
+    expected = JointState(effort=efforts)
+    expected.header.stamp.sec, expected.header.stamp.nanosec = 12, 34
+    # the same bytes as the middleware's own, but for padding, which that leaves to chance
+    mine, its = template.bytes(), serialize_message(expected)
+    assert [i for i in range(len(mine)) if mine[i] != its[i] and i not in template.padding] == []
