@@ -1,12 +1,10 @@
 """
-The plugins against closed forms: pushed and released bodies, pendulum, Munk, floats, spheres.
+The plugins against closed forms: pushed and released bodies, pendulum, Munk, floats, entry.
 
 Each group returns relative errors with the bound that they are held to. Run:
 ``python benchmarks/plugin_closed_forms.py [--quick] [--json PATH]``.
 """
 
-import csv
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -27,10 +25,8 @@ from plugin_common import (
 from scipy.optimize import brentq
 
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
-from fluid_sim_ros.physics.reynolds import sphere_cd_brown_lawler
 
 WATER, G = 1000.0, 9.81
-STANDARD_DRAG = Path(__file__).parents[1] / 'test/physics/data/sphere_cd_standard.csv'
 
 
 def added_mass_body(axes: Array, density: float, **values: Any) -> str:
@@ -104,9 +100,7 @@ def pendulum() -> dict[str, float]:
         f'<body name="bob" pos="0 0 {-length}"><joint axis="0 1 0" pos="0 0 {length}"/>'
         f'{ellipsoid([radius] * 3, density)}{plugin}</body>'
     )
-    model, data = load(
-        world(body, gravity=(0, 0, -G), timestep=0.002, medium={'density': WATER})
-    )
+    model, data = load(world(body, gravity=(0, 0, -G), timestep=0.002, medium={'density': WATER}))
     data.qpos[0] = start
     times, angle = oscillation(model, data, lambda: data.qpos[0], 30.0)
     inertia = (mass + WATER * volume / 2) * length**2 + 0.4 * mass * radius**2
@@ -130,15 +124,14 @@ def munk() -> dict[str, float]:
         inertia = mass / 5 * (axes[0] ** 2 + axes[2] ** 2)
         m_x, m_z, i_y, speed = mass_a[0], mass_a[2], inertia + inertia_a[1], 1.0
         # (m + m_z) w' = (m + m_x) U q ; (I + I_A) q' = (m_z - m_x) U w   (body axes, z up)
-        system = speed * np.array(
-            [[0, (mass + m_x) / (mass + m_z)], [(m_z - m_x) / i_y, 0]]
-        )
+        system = speed * np.array([[0, (mass + m_x) / (mass + m_z)], [(m_z - m_x) / i_y, 0]])
         growth = np.sqrt(system[0, 1] * system[1, 0])
         model, data = load(
             world(
-                added_mass_body(axes, WATER), timestep=0.002 / growth,
+                added_mass_body(axes, WATER),
+                timestep=0.002 / growth,
                 medium={'density': WATER},
-            )  # fmt: skip
+            )
         )
         # heave rate w along z, pitch about y: q > 0 turns the nose down, w' = +U q
         vector = np.array([system[0, 1], growth]) / growth * 1e-6
@@ -194,9 +187,11 @@ def float_cases() -> dict[str, tuple[str, float, float, float]]:
     )
     second = 2 * half[0] * (2 * half[1]) ** 3 / 12
     cases['box'] = (
-        inside, half[2] - draft, WATER * G * 4 * half[0] * half[1],
+        inside,
+        half[2] - draft,
+        WATER * G * 4 * half[0] * half[1],
         WATER * G * second - mass * G * (half[2] - draft / 2),
-    )  # fmt: skip
+    )
 
     axes = np.array([0.35, 0.25, 0.15])
     whole = ellipsoid_volume(axes)
@@ -211,8 +206,11 @@ def float_cases() -> dict[str, tuple[str, float, float, float]]:
         f'<geom type="ellipsoid" size="{text(axes)}"/>'
     )
     cases['ellipsoid'] = (
-        inside, -sunk, WATER * G * area, WATER * G * second + mass * G * center,
-    )  # fmt: skip
+        inside,
+        -sunk,
+        WATER * G * area,
+        WATER * G * second + mass * G * center,
+    )
     return cases
 
 
@@ -263,9 +261,11 @@ def float_model(inside: str, added: float) -> tuple[mujoco.MjModel, mujoco.MjDat
         values |= {'added_mass': diagonal, 'reference_point': center}
     return load(
         world(
-            free_body(inside + body_plugin(**values)), gravity=(0, 0, -G), timestep=0.002,
+            free_body(inside + body_plugin(**values)),
+            gravity=(0, 0, -G),
+            timestep=0.002,
             medium={'density': WATER, 'surface': 0},
-        )  # fmt: skip
+        )
     )
 
 
@@ -300,78 +300,24 @@ def entry() -> dict[str, float]:
     return {'entry_speed': worst}
 
 
-def terminal(points: int) -> dict[str, Any]:
-    """
-    Return errors of the terminal speed of spheres over Re .1 to 1e5.
-
-    For each Re the excess density that balances Brown and Lawler's drag at the speed of that Re;
-    the body starts at 1.2 times that speed and must settle to it. Against the standard curve
-    the speed for the same weight differs by sqrt(Cd_ours / Cd_standard).
-    """
-    with STANDARD_DRAG.open(encoding='utf-8') as file:
-        rows = [row for row in csv.reader(file) if row and not row[0].startswith(('#', 'Re'))]
-    table = np.array(rows, dtype=float)
-    own, standard, measured = [], [], []
-    numbers = np.geomspace(0.1, 1e5, points)
-    radius, speed = 0.05, 0.1
-    for reynolds in numbers:
-        viscosity = WATER * speed * 2 * radius / reynolds  # one sphere, ever thinner fluids
-        drag = sphere_cd_brown_lawler(reynolds) * 0.5 * WATER * speed**2 * np.pi * radius**2
-        volume = 4 / 3 * np.pi * radius**3
-        density = WATER + drag / (volume * G)
-        body = free_body(
-            ellipsoid([radius] * 3, density, (0.5, 0, 0, 0, 0))
-            + body_plugin(added_mass='auto', volume='auto', drag='ellipsoid',
-                          drag_reynolds='brown_lawler')  # fmt: skip
-        )
-        response = (density + WATER / 2) * volume * speed / drag
-        model, data = load(
-            world(
-                body, gravity=(0, 0, -G), timestep=response / 20, integrator='implicitfast',
-                medium={'density': WATER, 'viscosity': viscosity},
-            )  # fmt: skip
-        )
-        data.qvel[2] = -1.2 * speed
-        mujoco.mj_step(model, data, 600)
-        own.append(abs(-data.qvel[2] / speed - 1))
-        # speed that the standard curve gives for the same weight: Cd v^2 = const
-        weight = sphere_cd_brown_lawler(reynolds) * reynolds**2
-        log_re, log_cd = np.log(table[:, 0]), np.log(table[:, 1])
-        fit = brentq(
-            lambda x, w=weight: np.interp(x, log_re, log_cd) + 2 * x - np.log(w),
-            np.log(0.02), np.log(3.5e5),
-        )  # fmt: skip
-        measured.append(reynolds * float(-data.qvel[2] / speed))
-        standard.append(abs(measured[-1] / np.exp(fit) - 1))
-    return {
-        'terminal_speed_own_formula': max(own),
-        'terminal_speed_standard_curve': max(standard),
-        'terminal_curve': {
-            'Re': list(map(float, numbers)), 'error_standard': list(map(float, standard)),
-        },
-    }  # fmt: skip
-
-
 BOUNDS = {
     'pushed_a_m_over_F': 1e-6,
     'released_acceleration': 1e-6,
     'pendulum_period': 1e-4,
     'munk_growth': 1e-3,
     'entry_speed': 1e-3,
-    'terminal_speed_own_formula': 1e-4,
-    'terminal_speed_standard_curve': 0.04,
     **{f'float_{shape}{added}_{what}': 1e-3
        for shape in ('sphere', 'box', 'ellipsoid') for added in ('', '_added_mass')
        for what in ('depth', 'heave', 'roll')},
 }  # fmt: skip
 
 
-def measure(points: int) -> dict[str, Any]:
+def measure() -> dict[str, Any]:
     """Return every error."""
     errors: dict[str, Any] = {}
     for group in (pushed, released, pendulum, munk, floats, entry):
         errors |= group()
-    return errors | terminal(points)
+    return errors
 
 
 def draw(errors: dict[str, Any]) -> None:
@@ -396,7 +342,7 @@ def draw(errors: dict[str, Any]) -> None:
 def main() -> None:
     """Measure, print, write JSON and picture."""
     options = arguments(__doc__ or '', 'plugin_closed_forms')
-    errors = measure(13 if options.quick else 61)
+    errors = measure()
     for name, bound in BOUNDS.items():
         mark = 'ok' if errors[name] <= bound else 'MISSED'
         print(f'{name:32} {errors[name]:9.2e}  bound {bound:.0e}  {mark}')

@@ -69,9 +69,7 @@ gravity="{text(gravity)}" {option}><flag contact="disable" {flag}/></option>
 
 def free_body(inside: str, *, name: str = 'hull', position: ArrayLike = (0, 0, 0)) -> str:
     """Return a body with a free joint whose whole inertia matrix MuJoCo stores."""
-    return (
-        f'<body name="{name}" pos="{text(position)}" simple="false"><freejoint/>{inside}</body>'
-    )
+    return f'<body name="{name}" pos="{text(position)}" simple="false"><freejoint/>{inside}</body>'
 
 
 def load(xml: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -85,9 +83,7 @@ def explicit_force(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
     """Return the generalized fluid force summed over the published terms, without qacc."""
     out = np.zeros(model.nv)
     scratch = mujoco.MjData(model)
-    native().explicit_force(
-        model._address, data._address, scratch._address, out.ctypes.data
-    )
+    native().explicit_force(model._address, data._address, scratch._address, out.ctypes.data)
     return out
 
 

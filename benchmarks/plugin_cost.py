@@ -46,9 +46,7 @@ VARIANTS: dict[str, tuple[dict[str, Any] | None, str, dict[str, Any] | None]] = 
 }
 
 
-def model_of(
-    variant: str, integrator: str, count: int
-) -> tuple[mujoco.MjModel, mujoco.MjData]:
+def model_of(variant: str, integrator: str, count: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return ``count`` free bodies in slow motion."""
     values, option, medium = VARIANTS[variant]
     inside = ellipsoid(AXES, 1000, DEFAULTS) + ('' if values is None else body_plugin(**values))
@@ -59,9 +57,13 @@ def model_of(
         bodies = bodies.replace(' simple="false"', '')
     model, data = load(
         world(
-            bodies, integrator=integrator, timestep=0.002, gravity=(0, 0, -9.81),
-            option=option, medium=medium,
-        )  # fmt: skip
+            bodies,
+            integrator=integrator,
+            timestep=0.002,
+            gravity=(0, 0, -9.81),
+            option=option,
+            medium=medium,
+        )
     )
     data.qvel[:] = np.tile([0.3, 0.1, -0.2, 0.4, -0.3, 0.2], count)
     return model, data
@@ -135,7 +137,9 @@ def main() -> None:
     result = measure(5 if options.quick else 60)
     for integrator, values in result['one_body'].items():
         for name, ratio in values['ratio_to_stock_ellipsoid'].items():
-            print(f'{integrator:13} {name:36} {values["microseconds"][name]:6.2f} us {ratio:5.2f}x')
+            print(
+                f'{integrator:13} {name:36} {values["microseconds"][name]:6.2f} us {ratio:5.2f}x'
+            )
         for name, many in result['bodies'][integrator].items():
             print(f'{"":13} {name}: per body 20/10 {many["per_body_20_over_10"]:.2f}, '
                   f'20/1 {many["per_body_20_over_1"]:.2f}')  # fmt: skip

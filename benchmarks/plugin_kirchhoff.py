@@ -8,6 +8,7 @@ convergence, Galilean invariance, and the error of stock MuJoCo beside it.
 Run: ``python benchmarks/plugin_kirchhoff.py [--quick] [--json PATH]``.
 """
 
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
@@ -93,9 +94,7 @@ def model_of(
     """Return the body in its start state, at rest relative axes, O at the world origin."""
     option = f'wind="{text(flow_w)}" density="{DENSITY if "auto" in case.inside else 0}"'
     model, data = load(
-        world(
-            free_body(case.inside), integrator=integrator, timestep=timestep, option=option
-        )
+        world(free_body(case.inside), integrator=integrator, timestep=timestep, option=option)
     )
     if 'diaginertia' in case.inside:  # MuJoCo sorts the axes; the case wants its own
         numbers = case.inside.split('diaginertia="')[1].split('"')[0]
@@ -152,18 +151,14 @@ def drifts(case: Case, state: Array, duration: float) -> dict[str, float]:
     before, after = (impulses(t, s, case.matrix) for t, s in ((0, start), (duration, state)))
     return {
         'energy': abs(kinetic_energy(state, case.matrix) / energy - 1),
-        'linear_impulse': float(
-            np.linalg.norm(after[0] - before[0]) / np.linalg.norm(before[0])
-        ),
-        'angular_impulse': float(
-            np.linalg.norm(after[1] - before[1]) / np.linalg.norm(before[1])
-        ),
+        'linear_impulse': float(np.linalg.norm(after[0] - before[0]) / np.linalg.norm(before[0])),
+        'angular_impulse': float(np.linalg.norm(after[1] - before[1]) / np.linalg.norm(before[1])),
     }
 
 
 def orders(medians: list[float]) -> list[float]:
     """Return log2 of successive ratios (each step is half of the one before)."""
-    return [float(np.log2(a / b)) for a, b in zip(medians, medians[1:], strict=False)]
+    return [float(np.log2(a / b)) for a, b in pairwise(medians)]
 
 
 def errors_of(cases: list[Case], exact: list[Array], integrator: str, steps: tuple[float, ...],
@@ -173,7 +168,9 @@ def errors_of(cases: list[Case], exact: list[Array], integrator: str, steps: tup
     out: dict[str, Any] = {}
     for timestep in steps:
         states = [simulate(case, integrator, timestep, duration, still) for case in cases]
-        position = [float(np.linalg.norm(s[:3] - e[:3])) for s, e in zip(states, exact, strict=True)]
+        position = [
+            float(np.linalg.norm(s[:3] - e[:3])) for s, e in zip(states, exact, strict=True)
+        ]
         attitude = [attitude_error(s, e) for s, e in zip(states, exact, strict=True)]
         drift = [drifts(c, s, duration) for c, s in zip(cases, states, strict=True)]
         out[f'{timestep * 1000:g} ms'] = {
@@ -206,9 +203,7 @@ def galilean(cases: list[Case], timestep: float = 0.005) -> float:
 def stock_error(case: Case, exact: Array) -> float:
     """Return the position error [m] of stock MuJoCo (no plugin) for the same ellipsoid."""
     inside = case.inside.split('<plugin')[0]
-    model, data = load(
-        world(free_body(inside), timestep=0.005, option=f'density="{DENSITY}"')
-    )
+    model, data = load(world(free_body(inside), timestep=0.005, option=f'density="{DENSITY}"'))
     data.qvel[:] = case.nu
     mujoco.mj_step(model, data, round(DURATION / 0.005))
     return float(np.linalg.norm(data.qpos[:3] - exact[:3]))
@@ -244,7 +239,10 @@ def draw(result: dict[str, Any]) -> None:
 
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), sharey=True, layout='constrained')
     for axis, name, title in zip(
-        axes, ('ellipsoids', 'full_6x6'), ('random ellipsoids', 'full 6x6, off centre'), strict=True
+        axes,
+        ('ellipsoids', 'full_6x6'),
+        ('random ellipsoids', 'full 6x6, off centre'),
+        strict=True,
     ):
         for kind, values in result[name].items():
             steps = [key for key in values if key.endswith(' ms')]

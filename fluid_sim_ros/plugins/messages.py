@@ -32,7 +32,9 @@ def load_error_line(error: Exception) -> str:
         key, plugin = unknown.groups()
         element = _ELEMENT.search(text)
         where = f"'{element[1]}': " if element else ''
-        return f"{plugin}: {where}unknown key '{key}'; it has: {listed(native().plugin_keys(plugin))}"
+        return (
+            f"{plugin}: {where}unknown key '{key}'; it has: {listed(native().plugin_keys(plugin))}"
+        )
     if 'plugin->init failed' in text:
         return 'a plugin refuses the changed model; the WARNING before this line says why'
     return ' '.join(text.split())

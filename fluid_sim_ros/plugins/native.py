@@ -39,9 +39,8 @@ class Native:
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
     the interpreter lock while they run. ``set_medium(model, data, wind, current) -> int`` takes
-    addresses of three numbers or 0, ``get_medium`` the same. ``explicit_force(model, data, scratch, out)`` and
-    ``kinetic_energy(model, data, scratch, out)`` work on the scratch data. See plugins/src/api.cc
-    for their meaning.
+    addresses of three numbers or 0, ``get_medium`` the same. ``explicit_force`` and
+    ``kinetic_energy`` take (model, data, scratch, out). See plugins/src/api.cc for their meaning.
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
@@ -66,6 +65,9 @@ class Native:
         self.kinetic_energy: Callable[[int, int, int, int], None] = library.fsr_kinetic_energy
         library.fsr_kinetic_energy.argtypes = [pointer] * 4
         library.fsr_kinetic_energy.restype = None
+        self.energy_feed: Callable[[int, int, int, int], None] = library.fsr_energy_feed
+        library.fsr_energy_feed.argtypes = [pointer] * 4
+        library.fsr_energy_feed.restype = None
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p
@@ -74,7 +76,8 @@ class Native:
         library.fsr_plugin_config.restype = ctypes.c_char_p
         if library.fsr_row_width() != ROW_WIDTH or library.fsr_term_count() != len(TERMS):
             raise PluginError(
-                f'{plugin_library()} and native.py are of different versions; reinstall the package'
+                f'{plugin_library()} and native.py are of different versions; '
+                'reinstall the package'
             )
 
     def plugin_keys(self, plugin: str) -> tuple[str, ...]:

@@ -32,8 +32,10 @@ def shape_model(geom, values=None, medium=None, extra=''):
     return load(
         world(
             free_body(inside + body_plugin(**(values or {'volume': 'auto'}))),
-            gravity=G, medium=medium or LAKE, extra=extra,
-        )  # fmt: skip
+            gravity=G,
+            medium=medium or LAKE,
+            extra=extra,
+        )
     )
 
 
@@ -100,9 +102,7 @@ def test_cut_of_a_mesh():
     for _ in range(50):
         pose(data, rng, 0.3)
         rotation, position = world_frame(model, data)
-        cut = polyhedron_cut(
-            vertices, model.mesh_face, rotation.T @ [0, 0, 1], 0.7 - position[2]
-        )
+        cut = polyhedron_cut(vertices, model.mesh_face, rotation.T @ [0, 0, 1], 0.7 - position[2])
         expected = expected_wrench(cut, volume, center, rotation, position, data)
         np.testing.assert_allclose(explicit_force(model, data), expected, rtol=1e-9, atol=1e-9)
 
@@ -170,9 +170,7 @@ def test_named_geoms_alone_displace():
         '<geom name="frame" type="box" size=".2 .2 .2" density="10"/>'
     )
     plugin = body_plugin(volume='auto', geoms='float')
-    model, data = load(
-        world(free_body(inside + plugin), gravity=G, medium={'density': WATER})
-    )
+    model, data = load(world(free_body(inside + plugin), gravity=G, medium={'density': WATER}))
     lift = WATER * 4 / 3 * np.pi * 0.1**3 * 9.81
     assert explicit_force(model, data)[2] == pytest.approx(lift, rel=1e-12)
 
@@ -203,7 +201,7 @@ def test_buoyancy_is_conservative():
 
 
 def test_light_sphere_entering_water_ends_at_its_share_of_the_momentum():
-    """m v0 = (m + A) v: von Karman's slamming, without gravity and drag."""
+    """M v0 = (m + A) v: von Karman's slamming, without gravity and drag."""
     radius, mass = 0.1, 2.0
     volume = 4 / 3 * np.pi * radius**3
     inside = ellipsoid([radius] * 3, mass / volume) + body_plugin(

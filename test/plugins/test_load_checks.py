@@ -173,9 +173,7 @@ def test_no_density_is_refused():
 
 def test_a_surface_needs_to_know_the_depth_of_the_body():
     inside = '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
-    xml = world(
-        free_body(inside + body_plugin(added_mass=[1] * 6)), medium=SEA | {'surface': 0}
-    )
+    xml = world(free_body(inside + body_plugin(added_mass=[1] * 6)), medium=SEA | {'surface': 0})
     assert 'geoms or volume' in line_of(xml)
 
 
@@ -187,8 +185,10 @@ def test_disabled_passive_flags_are_refused():
 
 
 def test_open_mesh_is_refused():
-    mesh = '<asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 2 1 0 1 3 0 3 2"' \
+    mesh = (
+        '<asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 2 1 0 1 3 0 3 2"'
         ' inertia="shell"/></asset>'
+    )
     body = free_body('<geom type="mesh" mesh="m"/>' + body_plugin(volume='auto'))
     assert 'open surface' in line_of(world(body, medium=SEA, extra=mesh))
 

@@ -48,9 +48,7 @@ def test_ellipsoid_forces(area, seed):
     plugin = body_plugin(added_mass='auto', drag='ellipsoid', drag_area=area)
     model, data = load(world(free_body(ellipsoid(AXES, 800, coef) + plugin), medium=SEA))
     rotation, v, omega = random_state(model, data, seed)
-    terms = ellipsoid_wrench(
-        AXES, v, omega, density=1025, viscosity=1e-3, coef=coef, area=area
-    )
+    terms = ellipsoid_wrench(AXES, v, omega, density=1025, viscosity=1e-3, coef=coef, area=area)
     force = sum(term[0] for term in terms.values())
     torque = sum(term[1] for term in terms.values())
     # with qacc = 0 the relative velocity turns in body axes: A (w x v) belongs to the inertia
@@ -73,9 +71,7 @@ def test_drag_by_reynolds_number(speed):
     v = speed * np.array([0.36, 0.48, 0.8])
     data.qvel[:3] = rotation @ v + SEA['current']
     omega = data.qvel[3:]
-    force = reynolds_drag(
-        AXES, v, density=1025, viscosity=1e-3, c_slender=0.2, area='true'
-    )
+    force = reynolds_drag(AXES, v, density=1025, viscosity=1e-3, c_slender=0.2, area='true')
     torque = angular_drag(AXES, omega, density=1025, c_angular=1, c_slender=0.2)
     stokes = viscous_resistance(AXES, v, omega, 1e-3)
     np.testing.assert_allclose(
@@ -86,9 +82,7 @@ def test_drag_by_reynolds_number(speed):
 
 def test_rotational_damping_follows_the_density():
     plugin = body_plugin(drag='ellipsoid', rotational_damping=[0.1, 0.2, 0.3])
-    model, data = load(
-        world(free_body(ellipsoid(AXES, 800) + plugin), medium={'density': 1025})
-    )
+    model, data = load(world(free_body(ellipsoid(AXES, 800) + plugin), medium={'density': 1025}))
     data.qvel[3:] = [1, -2, 3]
     np.testing.assert_allclose(
         explicit_force(model, data), np.r_[0, 0, 0, -1025 * np.array([0.1, -0.4, 0.9])]
@@ -159,9 +153,7 @@ def test_quadratic_drag_is_the_secant_step_at_any_timestep(integrator, timestep)
     """v+ = v / (1 + h D |v| / m): never changes sign, to rounding (spin likewise)."""
     inside = '<inertial pos="0 0 0" mass="5" diaginertia=".3 .2 .1"/>'
     plugin = body_plugin(quadratic_damping=[100, 100, 100, 1, 1, 1])
-    model, data = load(
-        world(free_body(inside + plugin), integrator=integrator, timestep=timestep)
-    )
+    model, data = load(world(free_body(inside + plugin), integrator=integrator, timestep=timestep))
     speed = data.qvel[0] = 20.0
     for _ in range(10):
         mujoco.mj_step(model, data)

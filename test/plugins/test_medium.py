@@ -169,8 +169,9 @@ def test_without_a_medium_in_charge_the_call_says_so():
     stock = load(
         world(
             free_body(ellipsoid(AXES, 500) + body_plugin(added_mass='auto')),
-            option='density="1000"', medium={'density': 1000},
-        )  # fmt: skip
+            option='density="1000"',
+            medium={'density': 1000},
+        )
     )
     assert not set_medium(*stock, wind=[1, 0, 0])
 

@@ -49,9 +49,14 @@ def observe(model, data, body='hull'):
     bases = np.array([model.body(body).id], dtype=np.int32)
     scratch = mujoco.MjData(model)
     nat.native().observe(
-        model._address, data._address, scratch._address, bases.ctypes.data, 1, 1,
+        model._address,
+        data._address,
+        scratch._address,
+        bases.ctypes.data,
+        1,
+        1,
         rows.ctypes.data,
-    )  # fmt: skip
+    )
     return rows[0], scratch
 
 
@@ -62,9 +67,10 @@ def test_explicit_terms_add_up_to_the_fluid_share_of_the_passive_force(medium):
     else:
         model, data = load(
             world(
-                vehicle(added_mass='auto', volume='auto'), gravity=[0, 0, -9.81],
+                vehicle(added_mass='auto', volume='auto'),
+                gravity=[0, 0, -9.81],
                 option='density="1000" viscosity="1e-3" wind=".3 .2 -.1"',
-            )  # fmt: skip
+            )
         )
         data.qvel[:] = np.random.default_rng(0).normal(size=model.nv)
     for _ in range(20):

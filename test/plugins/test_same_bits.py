@@ -46,7 +46,7 @@ def start(model, data):
     rng = np.random.default_rng(4)
     for name in 'ab':
         joint = model.body(name).jntadr[0]
-        data.qvel[model.jnt_dofadr[joint]:][:6] = rng.normal(size=6)
+        data.qvel[model.jnt_dofadr[joint] :][:6] = rng.normal(size=6)
     set_medium(model, data, current=[1, 0, 0])
     data.ctrl[:] = 0.3
 
@@ -78,7 +78,7 @@ def run(model, data, steps=STEPS):
 
 
 def test_reset_and_again(plain):
-    model, first, states = plain
+    model, _first, states = plain
     data = mujoco.MjData(model)
     start(model, data)
     run(model, data, 17)
@@ -165,7 +165,7 @@ def test_two_models_in_one_process(plain):
 
 
 def test_any_order_of_declaration(plain):
-    model, first, states = plain
+    model, _first, states = plain
     swapped, data = load(sea_xml('ba'))
     swapped.opt.integrator = model.opt.integrator
     start(swapped, data)
@@ -177,5 +177,5 @@ def test_any_order_of_declaration(plain):
         for one, values in ((model, reference), (swapped, data)):
             joint = one.body(name).jntadr[0]
             q, v = one.jnt_qposadr[joint], one.jnt_dofadr[joint]
-            rows.append(np.r_[values.qpos[q + 2:q + 7], values.qvel[v:v + 6]])
+            rows.append(np.r_[values.qpos[q + 2 : q + 7], values.qvel[v : v + 6]])
         np.testing.assert_array_equal(rows[0], rows[1])

@@ -72,7 +72,7 @@ def test_amphibian_falls_dives_surfaces_and_drifts_with_the_current():
         run(model, data, 0.02)
         heights.append(data.qpos[2])
     assert min(heights) < -0.2  # under water
-    assert max(heights[np.argmin(heights):]) > 0  # and up again
+    assert max(heights[np.argmin(heights) :]) > 0  # and up again
     run(model, data, 40)
     weight = model.body_mass[1] * 9.81
     mujoco.mj_forward(model, data)

@@ -17,16 +17,16 @@ namespace {
 
 // Columns of one row that fsr_observe writes per vehicle; native.py holds the same numbers.
 enum Column {
-  kPosition = 0,            // base_link origin, world [m]
-  kQuaternion = 3,          // base_link to world, wxyz
-  kLinearVelocity = 7,      // of the origin, base_link axes [m/s]
-  kAngularVelocity = 10,    // base_link axes [rad/s]
-  kSpecificForce = 13,      // acceleration minus gravity at the origin, base_link axes [m/s^2]
+  kPosition = 0,              // base_link origin, world [m]
+  kQuaternion = 3,            // base_link to world, wxyz
+  kLinearVelocity = 7,        // of the origin, base_link axes [m/s]
+  kAngularVelocity = 10,      // base_link axes [rad/s]
+  kSpecificForce = 13,        // acceleration minus gravity at the origin, base_link axes [m/s^2]
   kAngularAcceleration = 16,  // base_link axes [rad/s^2]
-  kMediumVelocity = 19,     // undisturbed medium at the origin, world [m/s]
-  kTotal = 22,              // fluid wrench, force then torque, base_link axes, about the origin
-  kThrust = 28,             // wrench of the actuators on the base
-  kTerms = 34,              // kTermCount wrenches
+  kMediumVelocity = 19,       // undisturbed medium at the origin, world [m/s]
+  kTotal = 22,                // fluid wrench, force then torque, base_link axes, about the origin
+  kThrust = 28,               // wrench of the actuators on the base
+  kTerms = 34,                // kTermCount wrenches
   kRowWidth = kTerms + 6 * kTermCount
 };
 
@@ -204,8 +204,7 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
 // Targets that the wind and the current move towards from now on [m/s], world axes; a null pointer
 // leaves one as it is. Returns 1, or 0 for a model where no fluid_sim.medium is in charge (set
 // opt.wind there). Writes plugin_state only.
-FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind,
-                           const double* current) {
+FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind, const double* current) {
   const Assembly* assembly = FindAssembly(m, d);
   if (!assembly || !assembly->medium.in_charge()) return 0;
   const Medium& medium = assembly->medium;
@@ -215,7 +214,8 @@ FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind,
   return 1;
 }
 
-// Targets of wind and current in d [m/s]; returns 0 and writes nothing where no medium is in charge.
+// Targets of wind and current in d [m/s]; returns 0 and writes nothing where no medium is in
+// charge.
 FSR_API int fsr_get_medium(const mjModel* m, const mjData* d, double* wind, double* current) {
   const Assembly* assembly = FindAssembly(m, d);
   if (!assembly || !assembly->medium.in_charge()) return 0;

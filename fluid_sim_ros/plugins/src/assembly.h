@@ -37,8 +37,7 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
                     bool acceleration, Wrench terms[kTermCount]);
 
 // Velocity of the fluid that a world point lies in [m/s].
-void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3],
-                    mjtNum velocity[3]);
+void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3], mjtNum velocity[3]);
 
 // Register fluid_sim.body and fluid_sim.medium.
 void RegisterAssembly();

@@ -19,14 +19,14 @@ enum class Drag { kBuiltin, kEllipsoid, kNone };
 
 // "Body axes" are those of the body frame (not of its inertia); points are from its origin.
 struct BodyFluid {
-  int id = -1;                       // MuJoCo body
-  int free_dof = -1;                 // first dof when the body alone makes up a free tree, or -1
-  mjtNum point[3] = {0, 0, 0};       // reference point O of added mass and damping [m]
+  int id = -1;                  // MuJoCo body
+  int free_dof = -1;            // first dof when the body alone makes up a free tree, or -1
+  mjtNum point[3] = {0, 0, 0};  // reference point O of added mass and damping [m]
 
   bool added_mass = false;
-  bool per_density = false;          // `a` is per unit density (auto) or absolute (numbers)
-  mjtNum a[36] = {0};                // A about O for a body wholly in the lower fluid
-  mjtNum builtin[36] = {0};          // of MuJoCo's own convective term, per unit density, about O
+  bool per_density = false;  // `a` is per unit density (auto) or absolute (numbers)
+  mjtNum a[36] = {0};        // A about O for a body wholly in the lower fluid
+  mjtNum builtin[36] = {0};  // of MuJoCo's own convective term, per unit density, about O
   bool has_builtin = false;
 
   Damping damping;

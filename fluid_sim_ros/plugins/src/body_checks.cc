@@ -48,12 +48,16 @@ bool CheckDoubleCounting(const mjModel* m, const Config& config, const BodyFluid
   const std::string cure =
       "; set opt density=\"0\" viscosity=\"0\" and give the fluid by fluid_sim.medium";
   if (body.drag == Drag::kEllipsoid || (body.drag == Drag::kNone && config.Has("drag"))) {
-    return config.Refuse("drag", "builtin while opt.density or opt.viscosity > 0, for MuJoCo's "
-                                 "own drag acts on this body too" + cure);
+    return config.Refuse("drag",
+                         "builtin while opt.density or opt.viscosity > 0, for MuJoCo's "
+                         "own drag acts on this body too" +
+                             cure);
   }
   if (body.damping.any && !config.Has("drag")) {
-    return config.Fail("damping and MuJoCo's own drag (opt.density or opt.viscosity > 0) both "
-                       "brake this body" + cure + ", or say drag=\"builtin\" to have both");
+    return config.Fail(
+        "damping and MuJoCo's own drag (opt.density or opt.viscosity > 0) both "
+        "brake this body" +
+        cure + ", or say drag=\"builtin\" to have both");
   }
   return true;
 }
@@ -65,14 +69,16 @@ bool CheckDensity(const mjModel* m, const Config& config, const Medium& medium,
   if (!needed || LowerDensity(medium, m) > 0 || above > 0) return true;
   // a drag with viscosity only is fine
   if (!body.per_density && !body.buoyant && LowerViscosity(medium, m) > 0) return true;
-  return config.Fail("the fluid has no density; give it by fluid_sim.medium (or opt.density "
-                     "where MuJoCo's own drag is wanted)");
+  return config.Fail(
+      "the fluid has no density; give it by fluid_sim.medium (or opt.density "
+      "where MuJoCo's own drag is wanted)");
 }
 
 bool CheckShare(const Config& config, const Medium& medium, const BodyFluid& body) {
   if (!medium.has_surface || !body.solids.empty()) return true;
-  return config.Fail("the medium has a surface, but no geom says how deep this body is in it; "
-                     "give geoms or volume");
+  return config.Fail(
+      "the medium has a surface, but no geom says how deep this body is in it; "
+      "give geoms or volume");
 }
 
 }  // namespace
@@ -115,8 +121,9 @@ bool CheckBody(const mjModel* m, const Config& config, const Medium& medium,
                const BodyFluid& body) {
   if (LastDof(m, body.id) < 0) return config.Fail("this body cannot move; remove the plugin");
   if (!body.added_mass && !body.damping.any && !body.buoyant && body.drag != Drag::kEllipsoid) {
-    return config.Fail("nothing is switched on; give added_mass, volume, linear_damping, "
-                       "quadratic_damping, cross_damping or drag=\"ellipsoid\"");
+    return config.Fail(
+        "nothing is switched on; give added_mass, volume, linear_damping, "
+        "quadratic_damping, cross_damping or drag=\"ellipsoid\"");
   }
   return CheckInertiaStorage(m, config, body) && CheckDoubleCounting(m, config, body) &&
          CheckDensity(m, config, medium, body) && CheckShare(config, medium, body);
@@ -126,18 +133,21 @@ bool CheckOptions(const mjModel* m, int instance, const std::vector<BodyFluid>& 
   const Config config(m, instance, "model");
   const int passive = mjDSBL_SPRING | mjDSBL_DAMPER;
   if ((m->opt.disableflags & passive) == passive) {
-    return config.Fail("flag spring and damper are both disabled, which disables every passive "
-                       "force and this plugin too; enable one of them");
+    return config.Fail(
+        "flag spring and damper are both disabled, which disables every passive "
+        "force and this plugin too; enable one of them");
   }
   bool inertia = false;
   for (const BodyFluid& body : bodies) inertia |= body.added_mass;
   if (inertia && m->opt.solver == mjSOL_PGS && !(m->opt.disableflags & mjDSBL_CONSTRAINT)) {
-    config.Warn("solver PGS builds its contact matrix before the added mass is there, so contacts "
-                "are less exact; use solver=\"Newton\" or \"CG\"");
+    config.Warn(
+        "solver PGS builds its contact matrix before the added mass is there, so contacts "
+        "are less exact; use solver=\"Newton\" or \"CG\"");
   }
   if (m->opt.enableflags & mjENBL_SLEEP) {
-    config.Warn("a sleeping body does not notice wind, current or buoyancy; disable flag sleep or "
-                "give the fluid bodies sleep=\"never\"");
+    config.Warn(
+        "a sleeping body does not notice wind, current or buoyancy; disable flag sleep or "
+        "give the fluid bodies sleep=\"never\"");
   }
   return true;
 }

@@ -22,8 +22,7 @@ bool CheckSemidefinite(const Config& config, const char* key, const mjtNum matri
 bool CheckDiagonal(const Config& config, const char* key, const mjtNum matrix[36]);
 
 // Double counting, lost inertia, missing density, nothing switched on.
-bool CheckBody(const mjModel* m, const Config& config, const Medium& medium,
-               const BodyFluid& body);
+bool CheckBody(const mjModel* m, const Config& config, const Medium& medium, const BodyFluid& body);
 
 // Options that disable passive forces (refused), or make them less exact (warned about).
 bool CheckOptions(const mjModel* m, int instance, const std::vector<BodyFluid>& bodies);

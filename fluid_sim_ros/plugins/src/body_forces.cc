@@ -11,8 +11,8 @@ namespace {
 
 // How a body lies in the fluids; points in body axes from the body's origin.
 struct Immersion {
-  mjtNum wet = 1;               // share of the volume below the surface [-]
-  mjtNum rate = 0;              // its time derivative [1/s]
+  mjtNum wet = 1;                // share of the volume below the surface [-]
+  mjtNum rate = 0;               // its time derivative [1/s]
   mjtNum moment[3] = {0, 0, 0};  // of the wet part of the solids [m^4]
 };
 

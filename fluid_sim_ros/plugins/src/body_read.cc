@@ -72,8 +72,8 @@ bool ReadAddedMass(const mjModel* m, const Config& config, BodyFluid* out) {
       AddGeomMatrix(m, geom, mass, inertia, out->point, out->a);
     }
   } else if (!ReadMatrix6(config, "added_mass", {6, 21, 36},
-                          "auto, or 6, 21 or 36 numbers [kg], [kg m], [kg m^2]",
-                          &out->added_mass, out->a) ||
+                          "auto, or 6, 21 or 36 numbers [kg], [kg m], [kg m^2]", &out->added_mass,
+                          out->a) ||
              (out->added_mass && !CheckSemidefinite(config, "added_mass", out->a, true))) {
     return false;
   }
@@ -210,8 +210,9 @@ bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
   const bool automatic = config.Text("volume") == "auto";
   if (!out->buoyant && !center.empty()) return config.Fail("center_of_buoyancy needs volume");
   if (automatic && out->solids.empty()) {
-    return config.Refuse("volume", "auto needs a sphere, ellipsoid, capsule, cylinder, box or "
-                                   "mesh geom on this body; or a number > 0 [m^3]");
+    return config.Refuse("volume",
+                         "auto needs a sphere, ellipsoid, capsule, cylinder, box or "
+                         "mesh geom on this body; or a number > 0 [m^3]");
   }
   if (out->buoyant && !automatic &&
       !config.Number("volume", std::numeric_limits<mjtNum>::min(), kInfinity,
@@ -234,10 +235,12 @@ bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
 
 }  // namespace
 
-const char* const kBodyAttributes[] = {
-    "added_mass",    "reference_point", "linear_damping",     "quadratic_damping",
-    "cross_damping", "drag",            "drag_area",          "drag_reynolds",
-    "rotational_damping", "volume",     "center_of_buoyancy", "geoms"};
+const char* const kBodyAttributes[] = {"added_mass",         "reference_point",
+                                       "linear_damping",     "quadratic_damping",
+                                       "cross_damping",      "drag",
+                                       "drag_area",          "drag_reynolds",
+                                       "rotational_damping", "volume",
+                                       "center_of_buoyancy", "geoms"};
 const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
 
 bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, BodyFluid* out) {

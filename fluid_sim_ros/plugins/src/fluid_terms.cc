@@ -40,7 +40,8 @@ Wrench InertiaBoxDrag(const mjtNum edges[3], const MediumConstants& medium, cons
   for (int i = 0; i < 3; ++i) {
     const mjtNum a = edges[(i + 1) % 3], b = edges[(i + 2) % 3];
     out.force[i] = -0.5 * medium.density * a * b * std::abs(v[i]) * v[i];
-    out.torque[i] = -medium.density * edges[i] * (Fourth(a) + Fourth(b)) * std::abs(w[i]) * w[i] / 64;
+    out.torque[i] =
+        -medium.density * edges[i] * (Fourth(a) + Fourth(b)) * std::abs(w[i]) * w[i] / 64;
   }
   return out;
 }
@@ -72,13 +73,13 @@ Projection ProjectEllipsoid(const mjtNum r[3], const mjtNum v[3]) {
   return out;
 }
 
-Wrench EllipsoidDrag(const mjtNum r[3], const EllipsoidCoefficients& c, const MediumConstants& medium,
-                     const mjtNum w[3], const mjtNum v[3]) {
+Wrench EllipsoidDrag(const mjtNum r[3], const EllipsoidCoefficients& c,
+                     const MediumConstants& medium, const mjtNum w[3], const mjtNum v[3]) {
   const SortedAxes axes = Sort(r);
   const mjtNum area = ProjectEllipsoid(r, v).area;
   const mjtNum area_max = kPi * axes.max * axes.mid;
-  const mjtNum linear = medium.density * mju_norm3(v) *
-                        (area * c.blunt + c.slender * (area_max - area));
+  const mjtNum linear =
+      medium.density * mju_norm3(v) * (area * c.blunt + c.slender * (area_max - area));
 
   const mjtNum unit = 8.0 / 15.0 * kPi;
   const mjtNum inertia_max = unit * axes.mid * Fourth(axes.max);

@@ -16,7 +16,7 @@ mjtNum BluntCoefficient(const DragEllipsoid& part, const DragOptions& options,
   if (!options.brown_lawler) return part.coefficients.blunt;
   const mjtNum* r = part.semiaxes;
   const mjtNum diameter = 2.0 / 3.0 * (r[0] + r[1] + r[2]);  // as the Stokes term has it
-  if (medium.viscosity <= 0) return 0.5 * 0.407;  // Re without bound
+  if (medium.viscosity <= 0) return 0.5 * 0.407;             // Re without bound
   return BrownLawlerBlunt(medium.density * speed * diameter / medium.viscosity);
 }
 

@@ -10,15 +10,15 @@
 namespace fluid_sim {
 
 struct DragOptions {
-  bool true_area = false;      // true projected area instead of the seed's lemma
-  bool brown_lawler = false;   // blunt coefficient from the Reynolds number
+  bool true_area = false;     // true projected area instead of the seed's lemma
+  bool brown_lawler = false;  // blunt coefficient from the Reynolds number
 };
 
 // One geom of the body with fluidshape="ellipsoid".
 struct DragEllipsoid {
   mjtNum position[3], rotation[9];  // in body axes
   mjtNum semiaxes[3];
-  mjtNum scale;                     // MuJoCo's interaction coefficient
+  mjtNum scale;  // MuJoCo's interaction coefficient
   EllipsoidCoefficients coefficients;
 };
 
@@ -36,8 +36,7 @@ struct Resistance {
 };
 
 Resistance EllipsoidResistance(const DragEllipsoid& part, const DragOptions& options,
-                               const MediumConstants& medium, const mjtNum w[3],
-                               const mjtNum v[3]);
+                               const MediumConstants& medium, const mjtNum w[3], const mjtNum v[3]);
 
 }  // namespace fluid_sim
 

@@ -59,9 +59,9 @@ Flow StillFluid(bool lower, mjtNum weight, mjtNum density, mjtNum viscosity) {
 }  // namespace
 
 const char* const kMediumAttributes[] = {
-    "surface",      "density",         "viscosity", "density_above", "viscosity_above", "current",
-    "current_slew", "current_profile", "current_datum", "wind", "wind_slew", "wind_profile",
-    "wind_datum"};
+    "surface",   "density",      "viscosity",       "density_above", "viscosity_above",
+    "current",   "current_slew", "current_profile", "current_datum", "wind",
+    "wind_slew", "wind_profile", "wind_datum"};
 const int kMediumAttributeCount = sizeof(kMediumAttributes) / sizeof(kMediumAttributes[0]);
 
 bool ReadMedium(const mjModel* m, Medium* medium) {
@@ -76,9 +76,9 @@ bool ReadMedium(const mjModel* m, Medium* medium) {
     const char* density = "a number >= 0 [kg/m^3]";
     const char* viscosity = "a number >= 0, dynamic [Pa s]";
     medium->has_surface = config.Has("surface") && config.Text("surface") != "none";
-    if (medium->has_surface && !config.Number("surface", -kInfinity, kInfinity,
-                                              "none or a height in world z [m]",
-                                              &medium->surface)) {
+    if (medium->has_surface &&
+        !config.Number("surface", -kInfinity, kInfinity, "none or a height in world z [m]",
+                       &medium->surface)) {
       return false;
     }
     if (!config.Number("density", 0, kInfinity, density, &medium->density[0]) ||

@@ -38,9 +38,9 @@ struct Medium {
   int instance = -1;   // plugin instance, or -1: the model has none, opt.* holds
   bool equal = false;  // states the same as opt.*, which then stays in charge
   bool has_surface = false;
-  mjtNum surface = 0;             // height of the free surface, world z [m]
-  mjtNum density[2] = {0, 0};     // below, above [kg/m^3]
-  mjtNum viscosity[2] = {0, 0};   // below, above [Pa s]
+  mjtNum surface = 0;            // height of the free surface, world z [m]
+  mjtNum density[2] = {0, 0};    // below, above [kg/m^3]
+  mjtNum viscosity[2] = {0, 0};  // below, above [Pa s]
   Stream current, wind;
 
   bool in_charge() const { return instance >= 0 && !equal; }

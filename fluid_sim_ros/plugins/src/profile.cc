@@ -67,7 +67,8 @@ ProfileValue Profile::At(mjtNum height) const {
     case kTable: {
       if (height <= heights_.front()) return {factors_.front(), 0};
       if (height >= heights_.back()) return {factors_.back(), 0};
-      const size_t i = std::upper_bound(heights_.begin(), heights_.end(), height) - heights_.begin();
+      const size_t i =
+          std::upper_bound(heights_.begin(), heights_.end(), height) - heights_.begin();
       const mjtNum slope = (factors_[i] - factors_[i - 1]) / (heights_[i] - heights_[i - 1]);
       return {factors_[i - 1] + slope * (height - heights_[i - 1]), slope};
     }

@@ -132,8 +132,7 @@ void MoveToBody(Solid* solid) {
   mju_add3(solid->center, moved, solid->position);
   solid->radius = 0;
   for (size_t i = 0; i < solid->triangles.size(); i += 3) {
-    solid->radius =
-        std::max(solid->radius, mju_dist3(solid->triangles.data() + i, solid->center));
+    solid->radius = std::max(solid->radius, mju_dist3(solid->triangles.data() + i, solid->center));
   }
 }
 

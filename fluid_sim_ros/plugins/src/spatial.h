@@ -54,8 +54,7 @@ inline void MultiplyMatrix6(mjtNum out[6], const mjtNum a[36], const mjtNum x[6]
 }
 
 // target += scale * source, 36 numbers
-inline void AddScaled36(mjtNum* __restrict target, const mjtNum* __restrict source,
-                        mjtNum scale) {
+inline void AddScaled36(mjtNum* __restrict target, const mjtNum* __restrict source, mjtNum scale) {
   for (int i = 0; i < 36; ++i) target[i] += scale * source[i];
 }
 

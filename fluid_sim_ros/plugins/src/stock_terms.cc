@@ -42,8 +42,8 @@ void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const mjtNum poin
   mju_scl3(mass, fluid + 6, medium.density);
   mju_scl3(inertia, fluid + 9, medium.density);
   const Wrench parts[] = {
-      EllipsoidDrag(r, c, medium, w, v),          EllipsoidViscous(r, medium, w, v),
-      AddedMassConvective(mass, inertia, w, v),   EllipsoidMagnus(r, c.magnus, medium, w, v),
+      EllipsoidDrag(r, c, medium, w, v),        EllipsoidViscous(r, medium, w, v),
+      AddedMassConvective(mass, inertia, w, v), EllipsoidMagnus(r, c.magnus, medium, w, v),
       EllipsoidKutta(r, c.kutta, medium, v),
   };
   const Term order[] = {kDrag, kViscous, kAddedMass, kMagnus, kKutta};
