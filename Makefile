@@ -17,7 +17,7 @@ help:
 	@echo 'make test-full  the tests with their large volumes, then the benchmarks into benchmarks/results/'
 	@echo 'make bench      the benchmarks, short runs into out/bench/ (FULL=1: as in test-full)'
 	@echo 'make lint       ruff, mypy, clang-format (make format: let them rewrite the files)'
-	@echo 'make docs       links and pictures of README.md and doc/'
+	@echo 'make docs       write the tables of the documentation; check its links and pictures'
 	@echo 'make clean      remove what was built (.venv stays; rm -r .venv removes that)'
 
 setup-demo setup-test setup-dev: setup-%:
@@ -48,6 +48,7 @@ format: setup-dev
 	$(BIN)/clang-format -i fluid_sim_ros/plugins/src/*.cc fluid_sim_ros/plugins/src/*.h
 
 docs: setup-demo
+	@$(BIN)/python .ci/doc_tables.py
 	@$(BIN)/python .ci/check_docs.py
 
 clean:

@@ -3,18 +3,20 @@ from pathlib import Path
 
 import pytest
 
-from fluid_sim_ros import scene_names
-from fluid_sim_ros.ros import parameters
-
 ROOT = Path(__file__).resolve().parents[2]
+
+
+def script(name):
+    """Import a script of .ci, which is no package."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / '.ci' / f'{name}.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @pytest.fixture(scope='module')
 def check_docs():
-    spec = importlib.util.spec_from_file_location('check_docs', ROOT / '.ci' / 'check_docs.py')
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script('check_docs')
 
 
 def test_every_link_of_the_documentation_leads_somewhere(check_docs):
@@ -36,22 +38,15 @@ def test_a_broken_link_is_found(check_docs, tmp_path):
     ]
 
 
-def test_the_readme_names_every_scene():
-    readme = (ROOT / 'README.md').read_text()
-    assert [name for name in scene_names() if f'`{name}`' not in readme] == []
+@pytest.mark.parametrize('name', ['scenes', 'accuracy', 'parameters'])
+def test_a_table_is_up_to_date(name):
+    doc_tables = script('doc_tables')
+    page, table = doc_tables.TABLES[name]
+    text = (ROOT / page).read_text()
+    # when this fails: make docs
+    assert doc_tables.with_table(text, name, table()) == text
 
 
-def parameter_row(name, declared):
-    """Return a parameter's row in doc/parameters.md."""
-    default = declared.default
-    if isinstance(default, bool):
-        default = str(default).lower()
-    default = '(empty)' if default in ('', ['']) else f'`{default}`'
-    live = 'yes' if declared.live else 'no'
-    return f'| `{name}` | {default} | {live} | {declared.description} |'
-
-
-def test_the_documented_parameters_are_those_of_the_node():
-    page = (ROOT / 'doc' / 'parameters.md').read_text()
-    rows = [line for line in page.splitlines() if line.startswith('| `')]
-    assert rows == [parameter_row(*item) for item in parameters.TABLE.items()]
+def test_a_table_without_marks_is_found():
+    with pytest.raises(ValueError, match='no <!-- begin x -->'):
+        script('doc_tables').with_table('text', 'x', '| a |')

@@ -1,0 +1,76 @@
+"""
+Write the tables of the documentation that are made from the project itself.
+
+A table stands between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``. Run by ``make docs``; a
+test fails when a table in the documentation is not what would be written.
+"""
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.ros import parameters
+from fluid_sim_ros.scene import Scene, scene_names
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def scenes() -> str:
+    """Return the table of scenes."""
+    rows = [f'| `{name}` | {Scene.load(name).description} |' for name in scene_names()]
+    return '\n'.join(['| Scene | What happens |', '|---|---|', *rows])
+
+
+def node_parameters() -> str:
+    """Return the table of the node's parameters."""
+    rows = [_parameter_row(name, declared) for name, declared in parameters.TABLE.items()]
+    head = ['| Parameter | Default | Live | Description |', '|---|---|---|---|']
+    return '\n'.join([*head, *rows])
+
+
+def _parameter_row(name: str, declared: Any) -> str:
+    default = declared.default
+    if isinstance(default, bool):
+        default = str(default).lower()
+    default = '(empty)' if default in ('', ['']) else f'`{default}`'
+    live = 'yes' if declared.live else 'no'
+    return f'| `{name}` | {default} | {live} | {declared.description} |'
+
+
+def accuracy() -> str:
+    """Return the table of stock MuJoCo against this package, as its benchmark left it."""
+    return (ROOT / 'benchmarks' / 'results' / 'accuracy_table.md').read_text().strip()
+
+
+TABLES: dict[str, tuple[str, Callable[[], str]]] = {
+    'scenes': ('README.md', scenes),
+    'accuracy': ('README.md', accuracy),
+    'parameters': ('doc/parameters.md', node_parameters),
+}
+
+
+def with_table(text: str, name: str, table: str) -> str:
+    """Return a page's text with one table replaced; ValueError where its marks are missing."""
+    begin, end = f'<!-- begin {name} -->', f'<!-- end {name} -->'
+    pattern = re.compile(f'{re.escape(begin)}.*?{re.escape(end)}', re.DOTALL)
+    if not pattern.search(text):
+        raise ValueError(f'no {begin} ... {end}')
+    return pattern.sub(lambda _: f'{begin}\n{table}\n{end}', text)
+
+
+def main() -> int:
+    """Write every table that is not up to date."""
+    for name, (page, table) in TABLES.items():
+        path = ROOT / page
+        old = path.read_text(encoding='utf-8')
+        new = with_table(old, name, table())
+        if new != old:
+            path.write_text(new, encoding='utf-8')
+            print(f'docs: wrote the table {name} of {page}')
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
