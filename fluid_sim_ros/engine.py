@@ -1,6 +1,7 @@
 """MuJoCo's model and data, stepped and observed through the plugin library's C functions."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -11,6 +12,44 @@ from fluid_sim_ros.plugins import native as nat
 
 Array = NDArray[np.float64]
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+#: Energy that comes or goes by itself is worth a warning beyond this share per second [1/s].
+_NOTABLE_FEED = 1e-2
+
+
+@dataclass(frozen=True)
+class EnergyBalance:
+    """
+    What integration does to the energy of the motion, measured over one step in still fluid.
+
+    Attributes
+    ----------
+    kinetic
+        Of bodies and flow [J].
+    feed
+        Power that the integrator adds by itself [W]: change of the kinetic energy over a step,
+        less the work of the forces. First-order integrators feed a motion with gyroscopic or convective
+        added-mass forces, or (the implicit ones) starve it.
+    dissipation
+        Power that drag and damping take out [W].
+
+    """
+
+    kinetic: float
+    feed: float
+    dissipation: float
+
+    @property
+    def warning(self) -> str:
+        """One line when the integrator outweighs drag, else empty."""
+        if abs(self.feed) <= max(self.dissipation, _NOTABLE_FEED * self.kinetic):
+            return ''
+        verb, share = ('adds', self.feed) if self.feed > 0 else ('takes', -self.feed)
+        return (
+            f'the integrator {verb} {share / self.kinetic:.1%} of the kinetic energy per second '
+            'by itself, more than drag takes out; use RK4 or a smaller timestep'
+        )
 
 
 class Engine:
@@ -82,6 +121,12 @@ class Engine:
         """
         self._observe(*self._observe_addresses, forces, self._rows_address)
         return self._rows
+
+    def energy_balance(self) -> EnergyBalance:
+        """Return the energy balance at the present state; takes a step on a copy."""
+        out = np.zeros(3)
+        nat.native().energy_feed(*self.addresses, self.observed._address, out.ctypes.data)
+        return EnergyBalance(*out.tolist())
 
     def reset(self, keyframe_id: int) -> None:
         """Go to a keyframe, or with -1 to the model's initial state, at time 0."""

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.engine import Engine
+from fluid_sim_ros.engine import EnergyBalance, Engine
 from fluid_sim_ros.environment import Event, exact
 from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.plugins import native as nat
@@ -385,6 +385,10 @@ class Simulation:
             for name, row in zip(self._names, rows, strict=True)
         }
         return Snapshot(time=self.time, step=self._step, vehicles=states)
+
+    def energy_balance(self) -> EnergyBalance:
+        """Return kinetic energy, what the integrator feeds in, and what drag takes out."""
+        return self._engine.energy_balance()
 
     def wrench(self, vehicle: str) -> dict[str, ForceTorque]:
         """

@@ -162,10 +162,18 @@ class Diagnostics:
             warning.name.removeprefix('mjWARN_').lower(): int(warnings[warning].number)
             for warning in _LIMIT_WARNINGS
         }
+        balance = self._simulation.energy_balance()
+        values = {
+            'kinetic_energy_J': f'{balance.kinetic:.6g}',
+            'integrator_feed_W': f'{balance.feed:.3g}',
+            'dissipation_W': f'{balance.dissipation:.3g}',
+            **counts,
+        }
         raised = [name for name, count in counts.items() if count]
-        if raised:
-            return self._status('engine', _WARN, f'warnings: {", ".join(raised)}', **counts)
-        return self._status('engine', _OK, 'no warnings', **counts)
+        message = f'warnings: {", ".join(raised)}' if raised else balance.warning
+        if message:
+            return self._status('engine', _WARN, message, **values)
+        return self._status('engine', _OK, 'no warnings', **values)
 
     def _peers(self) -> DiagnosticStatus:
         faults = self._graph.faults

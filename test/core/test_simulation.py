@@ -344,3 +344,45 @@ def test_a_blow_up_is_reported_by_the_error_alone(buoy, capfd, tmp_path, monkeyp
         buoy.step(3)
     assert capfd.readouterr() == ('', '')
     assert not (tmp_path / 'MUJOCO_LOG.TXT').exists()
+
+
+KIRCHHOFF = """
+<mujoco><option density="1000" timestep=".01" gravity="0 0 0"/>
+  <extension><plugin plugin="fluid_sim.body"/></extension>
+  <worldbody><body name="hull" simple="false"><freejoint/>
+    <geom type="ellipsoid" size=".5 .2 .1" density="1000" fluidshape="ellipsoid"
+          fluidcoef="{coef}"/>
+    <plugin plugin="fluid_sim.body"><config key="added_mass" value="auto"/></plugin>
+  </body></worldbody>
+</mujoco>
+"""
+
+
+def energy_after(path, coef, integrator, steps, **options):
+    path.write_text(KIRCHHOFF.format(coef=coef))
+    simulation = Simulation(path, integrator=integrator, **options)
+    simulation.data.qvel[:] = [1, 0.5, 0.3, 1, 2, 1.5]
+    simulation.step(steps)
+    return simulation.energy_balance()
+
+
+@pytest.mark.parametrize('coef', ['0 0 0 0 0', '.5 .25 1.5 1 1'])
+@pytest.mark.parametrize('integrator', ['euler', 'implicit', 'implicitfast', 'rk4'])
+def test_energy_feed_is_what_the_integrator_adds(tmp_path, integrator, coef):
+    """Without drag every change of energy is the integrator's; with drag the work is accounted."""
+    path = tmp_path / 'hull.xml'
+    feeds = [energy_after(path, coef, integrator, n, timestep=0.001) for n in range(11)]
+    gain = (feeds[10].kinetic - feeds[0].kinetic) / 0.01
+    fed = sum(balance.feed for balance in feeds[:10]) / 10
+    taken = np.trapezoid([b.dissipation for b in feeds]) / 10
+    assert (taken == 0) == (coef == '0 0 0 0 0')
+    assert gain == pytest.approx(fed - taken, rel=0.02, abs=1e-6 * feeds[0].kinetic)
+    if integrator == 'rk4':
+        assert abs(fed) < 1e-4 * feeds[0].kinetic + 1e-3 * taken  # the mean power is a trapezoid
+
+
+def test_growth_without_drag_is_warned_about_and_rk4_or_drag_ends_the_warning(tmp_path):
+    path = tmp_path / 'hull.xml'
+    assert 'use RK4' in energy_after(path, '0 0 0 0 0', 'euler', 5).warning
+    assert energy_after(path, '0 0 0 0 0', 'rk4', 5).warning == ''
+    assert energy_after(path, '.5 .25 1.5 1 1', 'euler', 5).warning == ''

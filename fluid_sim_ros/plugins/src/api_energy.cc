@@ -1,9 +1,10 @@
-// C functions for the energy watchdog: what a first-order integrator feeds into the motion.
+// C functions for the energy watchdog: energy that the integrator makes or loses by itself.
 
 #include <mujoco/mujoco.h>
 
 #include "assembly.h"
 #include "fluid_terms.h"
+#include "quiet.h"
 #include "stock_terms.h"
 
 #define FSR_API extern "C" __attribute__((visibility("default")))
@@ -14,29 +15,59 @@ namespace {
 // Columns of the answer; engine.py names the same.
 enum Answer { kKinetic = 0, kFeed = 1, kDissipation = 2 };
 
-// Generalized velocity-dependent bias of the bodies alone: bias(q, v) - bias(q, 0).
-void Gyroscopic(const mjModel* m, mjData* d, mjtNum* force) {
-  mj_markStack(d);
-  mjtNum* velocity = mj_stackAllocNum(d, m->nv);
-  mju_scl(force, d->qfrc_bias, -1, m->nv);
-  mju_copy(velocity, d->qvel, m->nv);
-  mju_zero(d->qvel, m->nv);
-  mj_fwdVelocity(m, d);
-  mju_addTo(force, d->qfrc_bias, m->nv);
-  mju_copy(d->qvel, velocity, m->nv);
-  mj_fwdVelocity(m, d);
-  mj_freeStack(d);
-}
+struct Balance {
+  mjtNum kinetic;      // of bodies and flow [J]
+  mjtNum power;        // of all forces that do work [W]
+  mjtNum dissipation;  // by drag and damping [W]
+};
 
-// Add J' of one term of every body: of the plugins, and with `stock` of MuJoCo's own.
-void AddTerm(const mjModel* m, mjData* d, Term term, bool stock, mjtNum* force) {
+// Add J' f of the added-mass terms and of the drag terms of every body.
+void FluidForces(const mjModel* m, mjData* d, mjtNum* added_mass, mjtNum* drag) {
   for (int body = 1; body < m->nbody; ++body) {
     const mjtNum* origin = d->xpos + 3 * body;
     Wrench terms[kTermCount];
-    if (stock) AddStockTerms(m, d, body, origin, terms);
+    AddStockTerms(m, d, body, origin, terms);
     AddPluginTerms(m, d, body, origin, false, terms);
-    mj_applyFT(m, d, terms[term].force, terms[term].torque, origin, body, force);
+    mj_applyFT(m, d, terms[kAddedMass].force, terms[kAddedMass].torque, origin, body, added_mass);
+    for (Term term : {kDrag, kViscous, kDamping}) {
+      mj_applyFT(m, d, terms[term].force, terms[term].torque, origin, body, drag);
+    }
   }
+}
+
+// v.f of everything but the workless forces: convective added mass (subtracted from
+// qfrc_passive) and gyroscopic (only the part of qfrc_bias at rest, gravity, is taken).
+Balance Evaluate(const mjModel* m, mjData* d) {
+  Balance out;
+  mj_forward(m, d);
+  mj_markStack(d);
+  mjtNum* force = mj_stackAllocNum(d, m->nv);
+  mjtNum* drag = mj_stackAllocNum(d, m->nv);
+  mjtNum* velocity = mj_stackAllocNum(d, m->nv);
+  mju_copy(velocity, d->qvel, m->nv);
+  mju_zero(force, m->nv);
+  mju_zero(drag, m->nv);
+  FluidForces(m, d, force, drag);
+  mju_scl(force, force, -1, m->nv);
+  mju_addTo(force, d->qfrc_passive, m->nv);
+  mju_addTo(force, d->qfrc_actuator, m->nv);
+  mju_addTo(force, d->qfrc_applied, m->nv);
+  mju_addTo(force, d->qfrc_constraint, m->nv);
+  for (int body = 1; body < m->nbody; ++body) {
+    const mjtNum* applied = d->xfrc_applied + 6 * body;
+    mj_applyFT(m, d, applied, applied + 3, d->xipos + 3 * body, body, force);
+  }
+  mjtNum kinetic[2];
+  KineticEnergy(m, d, kinetic);
+  out.kinetic = kinetic[0] + kinetic[1];
+  mju_zero(d->qvel, m->nv);
+  mj_fwdVelocity(m, d);
+  mju_subFrom(force, d->qfrc_bias, m->nv);
+  mju_copy(d->qvel, velocity, m->nv);
+  out.power = mju_dot(force, velocity, m->nv);
+  out.dissipation = -mju_dot(drag, velocity, m->nv);
+  mj_freeStack(d);
+  return out;
 }
 
 }  // namespace
@@ -44,33 +75,17 @@ void AddTerm(const mjModel* m, mjData* d, Term term, bool stock, mjtNum* force) 
 
 using namespace fluid_sim;
 
-// Kinetic energy of bodies and flow at the state in d [J], the power that the integrator feeds
-// into it [W], and the power that drag and damping take out [W].
-//
-// A workless force g (gyroscopic, convective added mass) that is applied over a whole step h as it
-// stood at the start adds h^2/2 g' M^-1 g to the energy of every step. RK4 is free of it to its
-// order; implicit integrators take in MuJoCo's own part of g, but never a plugin's.
+// Kinetic energy of bodies and flow at the state in d [J]; the power that the integrator adds to it
+// by itself [W], (T1 - T0)/h less the mean power of the forces over one step; and the power that
+// drag and damping take out [W]. The step is taken on `scratch`.
 FSR_API void fsr_energy_feed(const mjModel* m, const mjData* d, mjData* scratch, double* out) {
+  const QuietWarnings quiet;
   mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
-  mj_forward(m, scratch);
-  mjtNum kinetic[2];
-  const int integrator = m->opt.integrator;
-  const bool explicit_stock = integrator == mjINT_EULER || integrator == mjINT_DISCRETE;
-  mj_markStack(scratch);
-  mjtNum* workless = mj_stackAllocNum(scratch, m->nv);
-  mjtNum* drag = mj_stackAllocNum(scratch, m->nv);
-  mjtNum* answer = mj_stackAllocNum(scratch, m->nv);
-  mju_zero(workless, m->nv);
-  mju_zero(drag, m->nv);
-  if (explicit_stock || integrator == mjINT_IMPLICITFAST) Gyroscopic(m, scratch, workless);
-  AddTerm(m, scratch, kAddedMass, explicit_stock, workless);
-  for (Term term : {kDrag, kViscous, kDamping}) AddTerm(m, scratch, term, true, drag);
-  mj_forward(m, scratch);  // factorised inertia with the added mass
-  mj_solveM(m, scratch, answer, workless, 1);
+  const Balance start = Evaluate(m, scratch);
+  mj_step(m, scratch);
+  const Balance end = Evaluate(m, scratch);
+  out[kKinetic] = start.kinetic;
   out[kFeed] =
-      integrator == mjINT_RK4 ? 0 : m->opt.timestep / 2 * mju_dot(workless, answer, m->nv);
-  out[kDissipation] = -mju_dot(drag, scratch->qvel, m->nv);
-  mj_freeStack(scratch);
-  KineticEnergy(m, scratch, kinetic);
-  out[kKinetic] = kinetic[0] + kinetic[1];
+      (end.kinetic - start.kinetic) / m->opt.timestep - (start.power + end.power) / 2;
+  out[kDissipation] = start.dissipation;
 }
