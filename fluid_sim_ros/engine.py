@@ -29,8 +29,8 @@ class EnergyBalance:
         Of bodies and flow [J].
     feed
         Power that the integrator adds by itself [W]: change of the kinetic energy over a step,
-        less the work of the forces. First-order integrators feed a motion with gyroscopic or convective
-        added-mass forces, or (the implicit ones) starve it.
+        less the work of the forces. First-order integrators feed a motion with gyroscopic or
+        convective added-mass forces, or (the implicit ones) starve it.
     dissipation
         Power that drag and damping take out [W].
 
