@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
+from fluid_sim_ros.control.approach import Approach
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.timing import StampClock
@@ -30,8 +31,10 @@ class MultirotorGains(Gains):
     yaw_rate: float = gain(
         8.0, '1/s', 'the same for yaw; weaker, since the reaction torque of rotors is small'
     )
-    max_speed: float = gain(4.0, 'm/s', 'largest horizontal speed asked for')
-    max_climb: float = gain(2.0, 'm/s', 'largest vertical speed asked for')
+    max_speed: float = gain(4.0, 'm/s', 'largest horizontal speed')
+    max_climb: float = gain(2.0, 'm/s', 'largest vertical speed')
+    max_acceleration: float = gain(3.0, 'm/s^2', 'largest change of the horizontal speed')
+    max_lift: float = gain(2.0, 'm/s^2', 'largest change of the vertical speed')
     max_tilt: float = gain(0.6, 'rad', 'largest angle between thrust and up')
     max_rate: float = gain(4.0, 'rad/s', 'largest rate asked for')
     max_integral: float = gain(6.0, 'm/s^2', 'largest acceleration of the integrator on each axis')
@@ -51,10 +54,10 @@ class MultirotorController:
     """
     Holds a position and a heading, in wind too.
 
-    v* = K_p (p* - p);  a = K_v (v* - v) + i,  di/dt = K_i (v* - v);  F = m (a + g e_z)
-    gives thrust and, with the heading, attitude (Mellinger and Kumar 2011). On SO(3)
-    w* = K_R log(R^T R_d);  torque = J K_w (w* - w) + w x J w. The integrator stands still while a
-    limit binds (anti-windup), and starts anew when time goes back.
+    v* approaches the target (`Approach`); a = dv*/dt + K_v (v* - v) + i, di/dt = K_i (v* - v).
+    F = m (a + g e_z) gives thrust and, with the heading, attitude (Mellinger and Kumar 2011).
+    On SO(3) w* = K_R log(R^T R_d); torque = J K_w (w* - w) + w x J w. The integrator stands still
+    while a limit binds (anti-windup), and starts anew when time goes back.
 
     Parameters
     ----------
@@ -67,16 +70,18 @@ class MultirotorController:
 
     def __init__(self, plant: Plant, gains: MultirotorGains | None = None) -> None:
         self.plant = plant
-        self.gains = gains or MultirotorGains()
+        self.gains = gains = gains or MultirotorGains()
         self.allocator = Allocator(plant.thruster_matrix, plant.thrust_limits, PRIORITY)
         full = float(plant.thrust_limits[:, 1] @ plant.thruster_matrix[2])
         if full <= plant.weight:
             raise ConfigError(
                 f'thrusters lift {full:.2f} N at most; the vehicle weighs {plant.weight:.2f} N'
             )
-        self._lowest = self.gains.thrust_margin * full
-        self._highest = max((1.0 - self.gains.thrust_margin) * full, plant.weight)
-        self._tan_tilt = math.tan(self.gains.max_tilt)
+        self._lowest = gains.thrust_margin * full
+        self._highest = max((1.0 - gains.thrust_margin) * full, plant.weight)
+        self._tan_tilt = math.tan(gains.max_tilt)
+        self._across = Approach(gains.position, gains.max_speed, gains.max_acceleration)
+        self._upward = Approach(gains.position, gains.max_climb, gains.max_lift)
         self._clock = StampClock()
         self._integral = [0.0, 0.0, 0.0]
         # The error to integrate at the next state: so a repeated state changes nothing.
@@ -122,12 +127,14 @@ class MultirotorController:
 
         """
         dt = self._clock.advance(time)
-        if self._clock.restarted:
-            self._integral[:] = self._pending[:] = (0.0, 0.0, 0.0)
-        self._integrate(dt)
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         velocity_w = rot.to_world(r_wb, velocity_b)
-        error = self._speed_error(position_w, velocity_w, target_w)
+        if self._clock.restarted:
+            self._integral[:] = self._pending[:] = (0.0, 0.0, 0.0)
+            self._across.restart(velocity_w[0], velocity_w[1])
+            self._upward.restart(velocity_w[2], 0.0)
+        self._integrate(dt)
+        error = self._speed_error(position_w, velocity_w, target_w, dt)
         force_w, limited = self._force(error)
         thrust = rot.to_body(r_wb, force_w)[2]
         bounded = min(max(thrust, self._lowest), self._highest)
@@ -138,17 +145,16 @@ class MultirotorController:
         return thrusts
 
     def _speed_error(
-        self, position_w: Sequence[float], velocity_w: rot.Vector3, target_w: Sequence[float]
+        self,
+        position_w: Sequence[float],
+        velocity_w: rot.Vector3,
+        target_w: Sequence[float],
+        dt: float,
     ) -> rot.Vector3:
-        """Return v* - v [m/s], v* towards the target within the speed limits."""
-        gains = self.gains
-        vx = gains.position * (target_w[0] - position_w[0])
-        vy = gains.position * (target_w[1] - position_w[1])
-        vz = gains.position * (target_w[2] - position_w[2])
-        speed = math.hypot(vx, vy)
-        if speed > gains.max_speed:
-            vx, vy = vx * gains.max_speed / speed, vy * gains.max_speed / speed
-        vz = min(max(vz, -gains.max_climb), gains.max_climb)
+        """Return v* - v [m/s], and move v* on towards the target."""
+        self._across.step(target_w[0] - position_w[0], target_w[1] - position_w[1], dt)
+        self._upward.step(target_w[2] - position_w[2], 0.0, dt)
+        (vx, vy), (vz, _) = self._across.velocity, self._upward.velocity
         return (vx - velocity_w[0], vy - velocity_w[1], vz - velocity_w[2])
 
     def _force(self, error: rot.Vector3) -> tuple[rot.Vector3, bool]:
@@ -156,11 +162,12 @@ class MultirotorController:
         gains, i, plant = self.gains, self._integral, self.plant
         # a third of the weight at least: the thrust axis stays defined, and points up
         floor = plant.weight / 3.0
-        fz = plant.mass * (gains.velocity * error[2] + i[2]) + plant.weight
+        (ax, ay), (az, _) = self._across.acceleration, self._upward.acceleration
+        fz = plant.mass * (az + gains.velocity * error[2] + i[2]) + plant.weight
         limited = fz < floor
         fz = max(fz, floor)
-        fx = plant.mass * (gains.velocity * error[0] + i[0])
-        fy = plant.mass * (gains.velocity * error[1] + i[1])
+        fx = plant.mass * (ax + gains.velocity * error[0] + i[0])
+        fy = plant.mass * (ay + gains.velocity * error[1] + i[1])
         sideways, allowed = math.hypot(fx, fy), self._tan_tilt * fz
         if sideways > allowed:
             fx, fy, limited = fx * allowed / sideways, fy * allowed / sideways, True

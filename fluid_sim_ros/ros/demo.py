@@ -13,34 +13,34 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from geometry_msgs.msg import TwistStamped, WrenchStamped
 from nav_msgs.msg import Odometry
-from numpy.typing import NDArray
 from rich.console import Console
-from rich.table import Table
 from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.ros import demo_plots
 from fluid_sim_ros.ros.children import Child
+from fluid_sim_ros.ros.demo_summary import (
+    SCENE,
+    VEHICLE,
+    WAYPOINTS,
+    Recording,
+    gust_of_scene,
+    summary,
+    table,
+    targets,
+)
 from fluid_sim_ros.ros.recorder import Recorder
 from fluid_sim_ros.ros.states import read_odometry
-from fluid_sim_ros.scene import Scene
 
-SCENE, VEHICLE = 'quadrotor', 'x500'
-#: x, y, z [m], yaw [rad], hold [s]: home, and after 3 s a place to the north-east, looking at it.
-WAYPOINTS = ((0.0, 0.0, 1.5, 0.0, 3.0), (3.0, 2.0, 2.5, 0.6, 0.0))
 #: Domains to choose from: their UDP ports stay below the ephemeral ports of Linux.
 _DOMAINS = range(1, 101)
 #: Longest wait for the first state, and for the next one during the run [s, wall].
 _START_PATIENCE, _PATIENCE = 30.0, 15.0
-#: Settling time before an error counts as that of the hold, after a waypoint or gust [s].
-_SETTLED = 5.0
 #: Sleep between two looks at what has arrived [s].
 _PAUSE = 0.05
 _TOPICS = {
@@ -52,40 +52,6 @@ _TOPICS = {
     'joint_states': JointState,
 }
 _ODOMETRY = f'{VEHICLE}/odom'
-
-Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Recording:
-    """
-    What was published: rows by time, first column the stamp [s].
-
-    Attributes
-    ----------
-    odometry
-        Position [m], quaternion wxyz, velocity [m/s] and rate [rad/s] in base_link axes.
-    fluid, drag, viscous
-        Force [N] and torque [N m] of the fluid on the vehicle, base_link axes.
-    wind
-        Velocity of the air at the vehicle [m/s], world axes (and three zeros).
-    thrust
-        Thrust of each rotor [N].
-    gust
-        Begin and end [s].
-    wall
-        Wall time from the first state after time 0 to the last [s].
-
-    """
-
-    odometry: Array
-    fluid: Array
-    drag: Array
-    viscous: Array
-    wind: Array
-    thrust: Array
-    gust: tuple[float, float]
-    wall: float
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -111,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     ]
     text = json.dumps(result, indent=2) + '\n'
     (out / 'summary.json').write_text(text, encoding='utf-8')
-    console.print(_table(result))
+    console.print(table(result))
     console.print(f'Plots: {", ".join(map(str, pictures))}', soft_wrap=True)
     console.print(f'Summary: {out / "summary.json"}; logs: {out}/*.log', soft_wrap=True)
     _write_json(options.json, text)
@@ -283,85 +249,6 @@ def _children(out: Path, domain: int, duration: float) -> Iterator[_Children]:
     finally:
         for child in children.all():
             child.stop()
-
-
-# ---- what it shows ---------------------------------------------------------------------------
-
-
-def gust_of_scene() -> tuple[float, float]:
-    """Return begin and end of the gust in the scene's schedule [s]."""
-    events = [event for event in Scene.load(SCENE).schedule if event.wind is not None]
-    return events[0].at, events[-1].at
-
-
-def targets(recording: Recording) -> Array:
-    """Return where the vehicle should be at each state [m], shape (n, 3)."""
-    switch = WAYPOINTS[0][4]
-    late = recording.odometry[:, 0] >= switch
-    return np.where(late[:, None], WAYPOINTS[1][:3], WAYPOINTS[0][:3])
-
-
-def summary(recording: Recording) -> dict[str, Any]:
-    """Return the numbers of the table, with units in their names."""
-    times = recording.odometry[:, 0]
-    error = np.linalg.norm(recording.odometry[:, 1:4] - targets(recording), axis=1)
-    begin, end = recording.gust
-    settled = WAYPOINTS[0][4] + _SETTLED
-    force = np.linalg.norm(recording.fluid[:, 1:4], axis=1)
-    largest = int(force.argmax())
-    simulated = float(times[-1] - times[0])
-    return {
-        'scene': SCENE,
-        'simulated_s': simulated,
-        'wall_s': round(recording.wall, 3),
-        'real_time_factor': round(simulated / recording.wall, 2),
-        'states_received': len(recording.odometry),
-        'wrenches_received': len(recording.fluid),
-        'waypoint': list(WAYPOINTS[1][:3]),
-        'gust_m_s': float(np.abs(recording.wind[:, 1:4]).max()),
-        'error_before_gust_m': _largest(error, times, settled, begin),
-        'error_in_gust_m': _largest(error, times, begin, end),
-        'error_in_gust_settled_m': _largest(error, times, begin + _SETTLED, end),
-        'error_after_gust_m': _largest(error, times, end, math.inf),
-        'error_after_gust_settled_m': _largest(error, times, end + _SETTLED, math.inf),
-        'largest_fluid_force_n': float(force[largest]),
-        'largest_fluid_force_at_s': float(recording.fluid[largest, 0]),
-    }
-
-
-def _largest(error: Array, times: Array, begin: float, end: float) -> float | None:
-    inside = (times >= begin) & (times < end)
-    return float(error[inside].max()) if inside.any() else None
-
-
-def _table(result: dict[str, Any]) -> Table:
-    table = Table(title='Quadrotor in a gust, over ROS 2', show_header=False)
-    table.add_column('quantity')
-    table.add_column('value', justify='right')
-
-    def centimetres(key: str) -> str:
-        value = result[key]
-        return '-' if value is None else f'{100 * value:.1f} cm'
-
-    rows = (
-        ('simulated time', f'{result["simulated_s"]:.2f} s'),
-        ('wall time', f'{result["wall_s"]:.2f} s'),
-        ('real-time factor', f'{result["real_time_factor"]:.1f}'),
-        ('states received', str(result['states_received'])),
-        ('position error before the gust, settled', centimetres('error_before_gust_m')),
-        (f'largest in the gust of {result["gust_m_s"]:.0f} m/s', centimetres('error_in_gust_m')),
-        ('  in the gust, settled', centimetres('error_in_gust_settled_m')),
-        ('largest after the gust', centimetres('error_after_gust_m')),
-        ('  after the gust, settled', centimetres('error_after_gust_settled_m')),
-        (
-            'largest fluid force',
-            f'{result["largest_fluid_force_n"]:.2f} N '
-            f'at {result["largest_fluid_force_at_s"]:.2f} s',
-        ),
-    )
-    for row in rows:
-        table.add_row(*row)
-    return table
 
 
 if __name__ == '__main__':

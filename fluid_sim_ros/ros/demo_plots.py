@@ -1,7 +1,7 @@
 """Pictures of the demo."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib as mpl
 
@@ -11,8 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from fluid_sim_ros.ros.demo import Recording
+from fluid_sim_ros.ros.demo_summary import Recording
 
 _STYLE: Any = {
     'font.size': 10, 'axes.grid': True, 'grid.alpha': 0.3, 'axes.spines.top': False,
@@ -29,7 +28,7 @@ _BODY = ('forward x', 'left y', 'up z')
 Array = NDArray[np.float64]
 
 
-def trajectory(recording: 'Recording', targets: Array, path: Path) -> Path:
+def trajectory(recording: Recording, targets: Array, path: Path) -> Path:
     """Draw path, position and error against time; return the file's path."""
     times, position = recording.odometry[:, 0], recording.odometry[:, 1:4]
     with mpl.rc_context(_STYLE):
@@ -57,7 +56,7 @@ def trajectory(recording: 'Recording', targets: Array, path: Path) -> Path:
         return _save(figure, path)
 
 
-def wrench(recording: 'Recording', path: Path) -> Path:
+def wrench(recording: Recording, path: Path) -> Path:
     """Draw wind, fluid force and torque, and rotor thrust against time; return the file's path."""
     times = recording.fluid[:, 0]
     with mpl.rc_context(_STYLE):
@@ -85,7 +84,7 @@ def wrench(recording: 'Recording', path: Path) -> Path:
         return _save(figure, path)
 
 
-def _draw_path(axes: Any, recording: 'Recording', targets: Array) -> None:
+def _draw_path(axes: Any, recording: Recording, targets: Array) -> None:
     """Draw the path as seen from above."""
     east, north, _ = recording.odometry[:, 1:4].T
     places = np.unique(targets, axis=0)
@@ -99,7 +98,7 @@ def _draw_path(axes: Any, recording: 'Recording', targets: Array) -> None:
     axes.legend(loc='upper left', fontsize=9)
 
 
-def _draw_excursions(axes: Any, recording: 'Recording', targets: Array) -> None:
+def _draw_excursions(axes: Any, recording: Recording, targets: Array) -> None:
     """Draw the path around the last waypoint, before, in and after the gust."""
     times = recording.odometry[:, 0]
     off = 100 * (recording.odometry[:, 1:4] - targets)[:, :2]
@@ -124,7 +123,7 @@ def _tilt(quat_wb_wxyz: Array) -> Array:
     return angle
 
 
-def _finish(rows: Any, recording: 'Recording') -> None:
+def _finish(rows: Any, recording: Recording) -> None:
     """Shade the gust and put legends beside the axes, where they hide nothing."""
     begin, end = recording.gust
     last = recording.odometry[-1, 0]
