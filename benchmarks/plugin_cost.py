@@ -24,6 +24,8 @@ from plugin_common import (
     write,
 )
 
+from fluid_sim_ros.plugins.native import ROW_WIDTH, native
+
 AXES = (0.25, 0.2, 0.15)
 DEFAULTS = (0.5, 0.25, 1.5, 1.0, 1.0)
 SEA = {'density': 1000, 'viscosity': 1e-3}
@@ -84,9 +86,33 @@ def microseconds(
     return {name: float(value) for name, value in best.items()}
 
 
+def observation(rounds: int) -> dict[str, float]:
+    """Return microseconds of one reading of all wrenches, and of the forward pass within it."""
+    out = {}
+    for variant in ('stock ellipsoid', 'added mass + buoyancy + damping'):
+        model, data = model_of(variant, 'RK4', 1)
+        scratch, row = mujoco.MjData(model), np.zeros(ROW_WIDTH)
+        bases = np.array([1], dtype=np.int32)
+        where = (model._address, data._address, scratch._address, bases.ctypes.data, 1, 1)
+        best = {'observe': np.inf, 'forward': np.inf}
+        for _ in range(rounds):
+            start = time.perf_counter()
+            for _ in range(500):
+                native().observe(*where, row.ctypes.data)
+            middle = time.perf_counter()
+            for _ in range(500):
+                mujoco.mj_forward(model, scratch)
+            end = time.perf_counter()
+            best['observe'] = min(best['observe'], (middle - start) / 500 * 1e6)
+            best['forward'] = min(best['forward'], (end - middle) / 500 * 1e6)
+        out |= {f'{variant}: {name}': float(value) for name, value in best.items()}
+    return out
+
+
 def measure(rounds: int) -> dict[str, Any]:
     """Return microseconds and ratios."""
     result: dict[str, Any] = {'one_body': {}, 'bodies': {}}
+    result['observation_microseconds'] = observation(rounds)
     for integrator in ('RK4', 'implicitfast'):
         setups = {name: model_of(name, integrator, 1) for name in VARIANTS}
         cost = microseconds(setups, 2000, rounds)
@@ -143,6 +169,7 @@ def main() -> None:
         for name, many in result['bodies'][integrator].items():
             print(f'{"":13} {name}: per body 20/10 {many["per_body_20_over_10"]:.2f}, '
                   f'20/1 {many["per_body_20_over_1"]:.2f}')  # fmt: skip
+    print('reading all wrenches [us]:', result['observation_microseconds'])
     write(options.json, result)
     if not options.quick:
         draw(result)
