@@ -106,23 +106,25 @@ def test_card_falls_and_turns_over() -> None:
     for _ in range(round(4.0 / model.opt.timestep)):
         mujoco.mj_step(model, data)
         turned += data.qvel[4] * model.opt.timestep
-    assert abs(turned) > 2 * np.pi
-    assert abs(data.qpos[0] - start[0]) > 0.5  # it glides aside
-    sink = (start[2] - data.qpos[2]) / 4.0
-    assert 1.0 < sink < 3.0  # a card falls at about 1 to 2 m/s
+    # as doc/scenes.md states; the way is chaotic late, its mean is not
+    assert abs(turned) / (2 * np.pi) == pytest.approx(5.0, abs=1.0)
+    assert abs(data.qpos[0] - start[0]) == pytest.approx(1.6, abs=0.3)
+    assert (start[2] - data.qpos[2]) / 4.0 == pytest.approx(1.5, abs=0.15)
 
 
 def test_swimmer_swims_forward_and_the_reversed_wave_backward() -> None:
     ways = {}
     for lag in (1.0, -1.0):
         model, data = load('swimmer')
-        start = data.qpos[:3].copy()
-        drive(model, data, travelling_wave(5, amplitude=0.5, frequency=1.0, lag=lag), 5.0)
-        ways[lag] = data.qpos[:3] - start
+        wave = travelling_wave(5, amplitude=0.5, frequency=1.0, lag=lag)
+        drive(model, data, wave, 5.0)
+        start = data.subtree_com[1].copy()
+        drive(model, data, wave, 3.0)
+        ways[lag] = (data.subtree_com[1] - start) / 3.0
         assert warnings(data) == {}
-    assert ways[1.0][0] > 0.4  # m in 5 s; body 0.73 m
-    assert ways[-1.0][0] < -0.2
-    assert abs(ways[1.0][1]) < 0.3 * ways[1.0][0]
+    assert ways[1.0][0] == pytest.approx(0.20, abs=0.02)  # m/s, as doc/scenes.md states
+    assert ways[-1.0][0] < -0.1
+    assert abs(ways[1.0][1]) < 0.1 * ways[1.0][0]
     assert abs(ways[1.0][2]) < 1e-6  # neutral: keeps its depth
 
 
