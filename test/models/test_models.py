@@ -236,7 +236,7 @@ def test_rov_thrusters_reach_all_six_directions_and_match_ardusub_signs() -> Non
 def test_rov_sinks_at_its_terminal_speed_and_rights_itself() -> None:
     simulation = Simulation('rov')
     simulation.step(round(60.0 / simulation.timestep))
-    # 13.5 kg against 1000 kg/m^3 x .0134 m^3 on 33 N s/m and 190 N s^2/m^2, as models/rov.xml states
+    # 13.5 kg against 13.4 kg of water, on 33 N s/m and 190 N s^2/m^2: see models/rov.xml
     net = (13.5 - 13.4) * 9.81
     speed = (-33 + np.sqrt(33**2 + 4 * 190 * net)) / (2 * 190)
     state = simulation.snapshot().vehicles['bluerov2_heavy']

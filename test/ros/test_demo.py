@@ -37,6 +37,17 @@ def test_demo_writes_what_it_promises(
         assert (out / name).stat().st_size > 20_000
 
 
+def test_two_runs_are_the_same_to_the_bit(tmp_path: Path) -> None:
+    runs = []
+    for name in ('a', 'b'):
+        (tmp_path / name).mkdir()
+        runs.append(demo.record(tmp_path / name, 4.0))
+    for field in ('odometry', 'fluid', 'thrust'):
+        one, other = (getattr(run, field) for run in runs)
+        assert one.shape == other.shape == (401, one.shape[1])
+        assert (one == other).all(), field
+
+
 def test_a_child_that_dies_is_shown_with_its_last_words(tmp_path: Path) -> None:
     child = Child(
         'fluid_sim_node', 'fluid_sim_ros.ros.node', ['--ros-args', '-p', 'scene:=nowhere'],
