@@ -25,6 +25,10 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
+from fluid_sim_ros.control.multirotor import MultirotorController
+from fluid_sim_ros.control.underwater import UnderwaterController
+from fluid_sim_ros.ros.vehicle_plant import plant_of
+
 RESULT = Path(__file__).parent / 'results' / 'controller_latency.json'
 ROUNDS, QUICK_ROUNDS, WARM_UP = 5000, 1000, 200
 RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
@@ -100,6 +104,27 @@ def measure(module: str, vehicle: str, height: float, rounds: int) -> list[float
         child.wait(10)
 
 
+def law_steps(rounds: int) -> dict[str, float]:
+    """Return the time of one step of each control law, without ROS [us]."""
+    quad = MultirotorController(plant_of('quadrotor', '')[0])
+    rov = UnderwaterController(plant_of('rov', '')[0])
+    pose, still = ((0.1, 0.2, 1.4), (1.0, 0.01, 0.02, 0.03)), (0.0, 0.0, 0.0)
+    laws = {
+        'MultirotorController': lambda t: quad.step(t, *pose, still, still, (0, 0, 1.5), 0.1),
+        'UnderwaterController': lambda t: rov.step(t, *pose, still, still, -1.5, 0.1),
+    }
+    result = {}
+    for name, law in laws.items():
+        best = float('inf')
+        for block in range(5):
+            begin = time.perf_counter()
+            for i in range(rounds):
+                law((block * rounds + i) * 0.01)
+            best = min(best, (time.perf_counter() - begin) / rounds)
+        result[name] = round(1e6 * best, 1)
+    return result
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or '').split('\n\n')[0])
     parser.add_argument('--json', type=Path, default=RESULT, help='where to write the result')
@@ -135,9 +160,11 @@ def main() -> None:
         'cores': os.cpu_count(),
         'rounds': rounds,
         'cases': rows,
+        'law_step_us': law_steps(rounds),
     }
     options.json.parent.mkdir(parents=True, exist_ok=True)
     options.json.write_text(json.dumps(result, indent=2) + '\n')
+    print('law steps [us]  ', result['law_step_us'])
 
 
 if __name__ == '__main__':

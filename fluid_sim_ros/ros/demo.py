@@ -8,6 +8,7 @@ publish, prints a table and writes plots and a summary.
 import argparse
 import json
 import math
+import os
 import secrets
 import sys
 import time
@@ -116,6 +117,8 @@ def record(out: Path, duration: float) -> Recording:
         If a process dies or stops answering; the line holds the last it wrote.
 
     """
+    # nobody outside this host is asked, neither by this process nor by its children
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     topics = {f'{VEHICLE}/{leaf}': kind for leaf, kind in _TOPICS.items()}
     with _recorder(topics) as (recorder, domain), _children(out, domain, duration) as children:
         _follow(recorder, children)
@@ -200,9 +203,7 @@ class _Children:
 
     def __init__(self, out: Path, domain: int, duration: float) -> None:
         self._out = out
-        self._environment = {
-            'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'
-        }  # fmt: skip
+        self._environment = {'ROS_DOMAIN_ID': str(domain), 'ROS_LOG_DIR': str(out / 'ros_log')}
         self.simulator = self._start(
             'fluid_sim_node', 'fluid_sim_ros.ros.node',
             scene=SCENE, pacing='lockstep', duration=repr(duration),
