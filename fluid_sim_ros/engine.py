@@ -43,7 +43,8 @@ class EnergyBalance:
     @property
     def warning(self) -> str:
         """One line when the integrator outweighs drag, else empty."""
-        if abs(self.feed) <= max(self.dissipation, _NOTABLE_FEED * self.kinetic):
+        quiet = abs(self.feed) <= max(self.dissipation, _NOTABLE_FEED * self.kinetic)
+        if quiet or self.kinetic <= 0:
             return ''
         verb, share = ('adds', self.feed) if self.feed > 0 else ('takes', -self.feed)
         return (

@@ -381,6 +381,11 @@ def test_energy_feed_is_what_the_integrator_adds(tmp_path, integrator, coef):
         assert abs(fed) < 1e-4 * feeds[0].kinetic + 1e-3 * taken  # the mean power is a trapezoid
 
 
+@pytest.mark.parametrize('scene', ['sphere', 'quadrotor', 'rov', 'swimmer'])
+def test_a_body_at_rest_gives_no_warning(scene):
+    assert Simulation(scene).energy_balance().warning == ''
+
+
 def test_growth_without_drag_is_warned_about_and_rk4_or_drag_ends_the_warning(tmp_path):
     path = tmp_path / 'hull.xml'
     assert 'use RK4' in energy_after(path, '0 0 0 0 0', 'euler', 5).warning
