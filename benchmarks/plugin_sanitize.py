@@ -19,7 +19,11 @@ import mujoco
 from plugin_common import arguments, write
 
 ROOT = Path(__file__).parents[1]
-FLAGS = ('-fsanitize=address,undefined', '-fno-sanitize-recover=all', '-fno-omit-frame-pointer')
+FLAGS = (
+    '-fsanitize=address,undefined', '-fno-sanitize-recover=all', '-fno-omit-frame-pointer',
+)  # fmt: skip
+# With this macro MuJoCo's headers call stack functions that only a sanitized MuJoCo has.
+PLAIN_MUJOCO = '-U__SANITIZE_ADDRESS__'
 # The allocation counter preloads its own malloc, which a sanitizer does not allow.
 LEFT_OUT = ('test_no_allocation.py',)
 
@@ -31,7 +35,7 @@ def build(package: Path) -> None:
     sources = sorted(str(path) for path in (package / 'plugins/src').glob('*.cc'))
     command = [
         'g++', '-std=c++17', '-O1', '-g', '-fPIC', '-shared', '-fvisibility=hidden',
-        '-ffp-contract=off', *FLAGS, f'-I{wheel / "include"}', *sources, str(library),
+        '-ffp-contract=off', *FLAGS, PLAIN_MUJOCO, f'-I{wheel / "include"}', *sources, str(library),
         f'-Wl,-rpath,{wheel}', '-o', str(package / 'plugins/libfluid_sim.so'),
     ]  # fmt: skip
     subprocess.run(command, check=True)
@@ -47,7 +51,7 @@ def runtime(name: str) -> str:
 
 def run(folder: Path, quick: bool) -> dict[str, Any]:
     """Copy, build and test; return what happened."""
-    for name in ('fluid_sim_ros', 'benchmarks', 'test', 'models'):
+    for name in ('fluid_sim_ros', 'benchmarks', 'test', 'models', 'config', 'doc'):
         shutil.copytree(
             ROOT / name, folder / name, ignore=shutil.ignore_patterns('__pycache__', '*.so')
         )

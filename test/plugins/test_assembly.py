@@ -163,3 +163,31 @@ def test_a_free_body_alone_and_in_a_chain_are_the_same_to_rounding():
         mujoco.mj_step(model, data, 100)
         finals.append(np.r_[data.qpos, data.qvel])
     np.testing.assert_allclose(finals[0], finals[1], atol=1e-11)
+
+
+def test_one_instance_shared_by_two_bodies_is_as_good_as_two():
+    values = {'added_mass': [1, 2, 3, 0.1, 0.2, 0.3], 'linear_damping': [1] * 6}
+    box = '<geom type="box" size=".2 .1 .05" density="500"/>'
+    shared = (
+        body_plugin(**values)
+        .replace(
+            '<plugin plugin="fluid_sim.body">',
+            '<plugin plugin="fluid_sim.body"><instance name="h">',
+        )
+        .replace('</plugin>', '</instance></plugin>')
+    )
+    finals = []
+    for own in (True, False):
+        part = body_plugin(**values) if own else '<plugin instance="h"/>'
+        bodies = ''.join(
+            free_body(box + part, name=name, position=[x, 0, 0])
+            for name, x in (('a', 0), ('b', 2))
+        )
+        xml = world(bodies, integrator='implicitfast')
+        if not own:
+            xml = xml.replace('<plugin plugin="fluid_sim.body"/>', shared)
+        model, data = load(xml)
+        data.qvel[:] = np.linspace(-1, 1, 12)
+        mujoco.mj_step(model, data, 50)
+        finals.append(np.r_[data.qpos, data.qvel])
+    np.testing.assert_array_equal(finals[0], finals[1])

@@ -126,6 +126,16 @@ def test_two_media_are_refused():
     assert 'one per model' in line_of(xml)
 
 
+def test_an_instance_on_no_body_is_refused():
+    xml = world(free_body(HULL), medium=SEA).replace(
+        '<plugin plugin="fluid_sim.body"/>',
+        '<plugin plugin="fluid_sim.body"><instance name="hydro"/></plugin>',
+    )
+    line = line_of(xml)
+    assert "instance 'hydro'" in line
+    assert 'on no body' in line
+
+
 @pytest.mark.parametrize('key', ['added_mas', 'Volume'])
 def test_unknown_key_is_refused_with_the_known_ones(key):
     line = line_of(world(hull(**{key: 1}), medium=SEA))

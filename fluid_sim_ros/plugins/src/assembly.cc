@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <memory>
+#include <string>
 
 #include "body_checks.h"
 #include "body_forces.h"
@@ -24,10 +25,24 @@ int FirstInstance(const mjModel* m) {
   return -1;
 }
 
+// Every fluid_sim.body instance is on a body: one that is not would be off without a word.
+bool CheckInstancesUsed(const mjModel* m) {
+  for (int i = 0; i < m->nplugin; ++i) {
+    if (!IsNamed(m, i, "fluid_sim.body")) continue;
+    bool used = false;
+    for (int body = 1; body < m->nbody; ++body) used |= m->body_plugin[body] == i;
+    if (used) continue;
+    const char* name = mj_id2name(m, mjOBJ_PLUGIN, i);
+    const std::string title = "instance '" + std::string(name ? name : "") + "'";
+    return Config(m, i, title).Fail("is on no body; put <plugin instance=\"...\"/> into a body");
+  }
+  return true;
+}
+
 std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
   auto assembly = std::make_unique<Assembly>();
   assembly->owner = owner;
-  if (!ReadMedium(m, &assembly->medium)) return nullptr;
+  if (!ReadMedium(m, &assembly->medium) || !CheckInstancesUsed(m)) return nullptr;
   for (int body = 1; body < m->nbody; ++body) {
     const int instance = m->body_plugin[body];
     if (instance < 0 || !IsNamed(m, instance, "fluid_sim.body")) continue;
