@@ -10,6 +10,7 @@ import json
 import math
 import os
 import secrets
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -236,8 +237,14 @@ class _Children:
         return self.all()[-1].last_words()
 
 
+def _on_sigterm(number: int, frame: Any) -> None:
+    """Leave by an exception, so that the children are stopped on the way out."""
+    raise SystemExit(128 + number)
+
+
 @contextmanager
 def _children(out: Path, domain: int, duration: float) -> Iterator[_Children]:
+    before = signal.signal(signal.SIGTERM, _on_sigterm)
     children = _Children(out, domain, duration)
     try:
         yield children
@@ -250,6 +257,7 @@ def _children(out: Path, domain: int, duration: float) -> Iterator[_Children]:
     finally:
         for child in children.all():
             child.stop()
+        signal.signal(signal.SIGTERM, before)
 
 
 if __name__ == '__main__':

@@ -1,6 +1,9 @@
 """The demo, shortened: two processes, a recording, plots and a summary; and what goes wrong."""
 
 import json
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -8,6 +11,7 @@ import pytest
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.ros import demo
 from fluid_sim_ros.ros.children import Child
+from test.ros.harness import wait_until
 
 pytestmark = pytest.mark.ros
 
@@ -46,6 +50,26 @@ def test_two_runs_are_the_same_to_the_bit(tmp_path: Path) -> None:
         one, other = (getattr(run, field) for run in runs)
         assert one.shape == other.shape == (401, one.shape[1])
         assert (one == other).all(), field
+
+
+@pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_ends_the_demo_and_its_children(
+    tmp_path: Path, number: int, code: int
+) -> None:
+    command = [sys.executable, '-m', 'fluid_sim_ros.cli', 'demo']
+    command += ['--out', str(tmp_path), '--duration', '600']
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    log = tmp_path / 'quad_controller.log'
+    wait_until(lambda: log.exists() and 'waiting for' in log.read_text(), 'the controller')
+    children = children_of(process.pid)
+    process.send_signal(number)
+    assert process.wait(30) == code
+    process.stderr.close()
+    assert len(children) == 2 and not any(Path(f'/proc/{pid}').exists() for pid in children)
+
+
+def children_of(parent: int) -> list[int]:
+    return [int(pid) for pid in Path(f'/proc/{parent}/task/{parent}/children').read_text().split()]
 
 
 def test_a_child_that_dies_is_shown_with_its_last_words(tmp_path: Path) -> None:
