@@ -1,5 +1,7 @@
 """The scenes that show the plugins, each with the fact that it is there for."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import mujoco
@@ -7,7 +9,7 @@ import numpy as np
 import pytest
 from plugin_common import kinetic_energy
 
-from fluid_sim_ros import Simulation, load_plugins
+from fluid_sim_ros import Simulation, load_plugins, plugin_library
 
 MODELS = Path(__file__).parents[2] / 'models'
 
@@ -90,3 +92,32 @@ def test_a_model_with_plugins_is_drawn_without_more_than_load_plugins():
     mujoco.mjv_updateScene(model, data, mujoco.MjvOption(), None, camera, everything, scene)
     drawn = {scene.geoms[i].objid for i in range(scene.ngeom)}
     assert model.geom('hull').id in drawn
+
+
+STOCK_PROGRAM = """
+import sys
+import mujoco
+mujoco.mj_loadPluginLibrary(sys.argv[1])
+model = mujoco.MjModel.from_xml_path(sys.argv[2])
+data = mujoco.MjData(model)
+mujoco.mj_step(model, data, 1500)
+print(repr(data.qpos[2]), 'fluid_sim_ros' in sys.modules)
+"""
+
+
+def test_stock_mujoco_needs_the_library_alone():
+    """No Python of ours: MuJoCo loads the library by itself and gets the same bits."""
+    path = MODELS / 'amphibious.xml'
+    done = subprocess.run(
+        [sys.executable, '-c', STOCK_PROGRAM, str(plugin_library()), str(path)],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    height, ours_loaded = done.stdout.split()[-2:]
+    assert ours_loaded == 'False'
+    load_plugins()
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, 1500)
+    assert repr(data.qpos[2]) == height
