@@ -335,7 +335,7 @@ def draw(errors: dict[str, Any]) -> None:
     axis.invert_yaxis()
     axis.grid(alpha=0.3)
     axis.set_xlabel('relative error')
-    axis.legend()
+    figure.legend(loc='outside upper right', ncols=2)
     figure.savefig(RESULTS / 'plugin_closed_forms.png', dpi=80)
 
 

@@ -85,7 +85,6 @@ FSR_API void fsr_energy_feed(const mjModel* m, const mjData* d, mjData* scratch,
   mj_step(m, scratch);
   const Balance end = Evaluate(m, scratch);
   out[kKinetic] = start.kinetic;
-  out[kFeed] =
-      (end.kinetic - start.kinetic) / m->opt.timestep - (start.power + end.power) / 2;
+  out[kFeed] = (end.kinetic - start.kinetic) / m->opt.timestep - (start.power + end.power) / 2;
   out[kDissipation] = start.dissipation;
 }
