@@ -32,7 +32,6 @@ SWIM: JointWave = travelling_wave(5, amplitude=0.5, frequency=1.0, lag=1.0)
 BEAT: JointWave = wing_beat(stroke=1.1, pitch=0.8, frequency=26.0)
 
 
-
 @dataclass(frozen=True)
 class Shot:
     """

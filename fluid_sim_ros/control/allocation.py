@@ -49,9 +49,7 @@ class Allocator:
         if b.ndim != 2 or b.shape[0] != 6 or b.shape[1] == 0 or not np.isfinite(b).all():
             raise ConfigError(f'thruster matrix: shape {b.shape}; must be (6, n), n > 0, finite')
         if low_high.shape != (b.shape[1], 2):
-            raise ConfigError(
-                f'thrust limits: shape {low_high.shape}; must be ({b.shape[1]}, 2)'
-            )
+            raise ConfigError(f'thrust limits: shape {low_high.shape}; must be ({b.shape[1]}, 2)')
         if not ((low_high[:, 0] <= 0).all() and (low_high[:, 1] >= 0).all()):
             raise ConfigError('thrust limits: 0 N must lie within the limits of every thruster')
         self.matrix = b

@@ -55,9 +55,7 @@ class JointWave:
         offsets = self.offsets or (0.0,) * len(self.amplitudes)
         return [
             offset + rise * amplitude * math.sin(turn + phase)
-            for offset, amplitude, phase in zip(
-                offsets, self.amplitudes, self.phases, strict=True
-            )
+            for offset, amplitude, phase in zip(offsets, self.amplitudes, self.phases, strict=True)
         ]
 
 
@@ -86,9 +84,7 @@ def travelling_wave(
     return JointWave(frequency, (amplitude,) * joints, phases, ramp=ramp)
 
 
-def wing_beat(
-    *, stroke: float, pitch: float, frequency: float, ramp: float = 0.1
-) -> JointWave:
+def wing_beat(*, stroke: float, pitch: float, frequency: float, ramp: float = 0.1) -> JointWave:
     """
     Return a hovering beat for (stroke left, stroke right, pitch left, pitch right).
 

@@ -110,9 +110,7 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def judge(
-    table: Mapping[str, Declared], changes: Sequence[Parameter]
-) -> SetParametersResult:
+def judge(table: Mapping[str, Declared], changes: Sequence[Parameter]) -> SetParametersResult:
     """Accept or refuse a change at run time, with the reason."""
     for change in changes:
         declared = table.get(change.name)

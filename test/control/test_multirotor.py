@@ -130,9 +130,7 @@ def test_same_commands_whichever_way_the_world_is_turned() -> None:
     c, s = np.cos(half), np.sin(half)
     quat = (c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w)
     turned = (rot.to_world(r, state[0]), quat, state[2], state[3])
-    found = MultirotorController(PLANT).step(
-        0.0, *turned, rot.to_world(r, target), yaw + turn
-    )
+    found = MultirotorController(PLANT).step(0.0, *turned, rot.to_world(r, target), yaw + turn)
     assert found == pytest.approx(expected, abs=1e-12)
 
 

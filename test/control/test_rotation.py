@@ -8,9 +8,7 @@ from scipy.spatial.transform import Rotation
 from fluid_sim_ros.control import rotation as rot
 
 number = st.floats(-1, 1, allow_nan=False)
-quaternions = st.tuples(number, number, number, number).filter(
-    lambda q: np.linalg.norm(q) > 0.1
-)
+quaternions = st.tuples(number, number, number, number).filter(lambda q: np.linalg.norm(q) > 0.1)
 vectors = st.tuples(number, number, number)
 angles = st.floats(-3.1, 3.1)
 

@@ -65,17 +65,13 @@ def test_place_hold_comes_back_in_a_current() -> None:
 
 
 def test_surge_speed_is_held_along_the_heading() -> None:
-    rows = dive(
-        controller(), 20.0, heading=lambda t: np.pi / 2, speed_h=(0.4, 0.0)
-    )
+    rows = dive(controller(), 20.0, heading=lambda t: np.pi / 2, speed_h=(0.4, 0.0))
     assert rows[-1, VY] == pytest.approx(0.4, abs=0.03)
     assert abs(rows[-1, VX]) < 0.02
 
 
 def test_limits_hold_and_saturation_does_not_wind_up() -> None:
-    rows = dive(
-        controller(), 30.0, depth=lambda t: 9.0 if t < 12 else 5.0, place_w=(8.0, 0.0)
-    )
+    rows = dive(controller(), 30.0, depth=lambda t: 9.0 if t < 12 else 5.0, place_w=(8.0, 0.0))
     low, high = PLANT.thrust_limits.T
     assert (rows[:, 9:] >= low).all() and (rows[:, 9:] <= high).all()
     assert rows[:, X].max() < 8.3

@@ -16,9 +16,7 @@ from test.ros.harness import wait_until
 pytestmark = pytest.mark.ros
 
 
-def test_demo_writes_what_it_promises(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / 'out'
     assert demo.main(['--out', str(out), '--duration', '12', '--json', '-']) == 0
     printed = capsys.readouterr()
@@ -53,9 +51,7 @@ def test_two_runs_are_the_same_to_the_bit(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_a_signal_ends_the_demo_and_its_children(
-    tmp_path: Path, number: int, code: int
-) -> None:
+def test_a_signal_ends_the_demo_and_its_children(tmp_path: Path, number: int, code: int) -> None:
     command = [sys.executable, '-m', 'fluid_sim_ros.cli', 'demo']
     command += ['--out', str(tmp_path), '--duration', '600']
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
