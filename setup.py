@@ -116,7 +116,7 @@ def data(folder):
 # Tested ranges. The ROS wheels (x86_64 only) are not needed where ROS 2 Jazzy is installed.
 ROS = ['ros-jazzy-rclpy[fastrtps]>=7.1,<8', 'ros-jazzy-common-interfaces>=5.3,<6']
 MAVLINK = ['pymavlink>=2.4.41,<3']
-RECORD = ['mcap>=1.2,<2']
+RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
 TEST = [
     *CHARTS,
@@ -143,7 +143,7 @@ setup(
     license='Apache-2.0',
     python_requires='>=3.11,<3.13',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['py.typed']},
+    package_data={PACKAGE: ['py.typed', 'messages/*.json']},
     ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
     cmdclass={'build_ext': BuildPluginLibrary},
     data_files=[

@@ -34,11 +34,11 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
 from fluid_sim_ros.errors import CommandError, FluidSimError
+from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.inputs import PolledGroup
 from fluid_sim_ros.ros.parameters import check_domain, check_parameter_files
 from fluid_sim_ros.ros.states import State, read_odometry
-from fluid_sim_ros.ros.templates import Template
 from fluid_sim_ros.ros.vehicle_plant import plant_of
 
 #: Longest wait before signals are looked at again [ns].
@@ -169,18 +169,19 @@ class ControllerNode(Node, ABC):
         except CommandError as error:
             self.get_logger().error(str(error), throttle_duration_sec=1.0)
             return
+        if not state.is_sound():
+            # one such number would stay in the controller's integrators for ever
+            self.get_logger().error(
+                'the odometry holds numbers that are not finite, or no attitude: not answered',
+                throttle_duration_sec=1.0,
+            )
+            return
         if state.stamp_ns < self._last_stamp_ns:
             self.plan.restart()
             self.restart()
             self.get_logger().info('time went back: starting anew')
         self._last_stamp_ns = state.stamp_ns
         thrusts = self.answer(state.stamp_ns * 1e-9, state)
-        if not math.isfinite(sum(thrusts)):
-            self.get_logger().error(
-                'the odometry holds numbers that are not finite: not answered',
-                throttle_duration_sec=1.0,
-            )
-            return
         template = self._template
         template.stamp[:] = data[_STAMP]
         self._pack(template.blocks[0], 0, *thrusts)

@@ -15,11 +15,23 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from fluid_sim_ros.errors import CommandError, ConfigError, FluidSimError, listed
-from fluid_sim_ros.ros.cdr import read_float64_multi_array, read_joint_state, read_stamped_pair
-from fluid_sim_ros.scene_schema import ScheduledEvent
+from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
+from fluid_sim_ros.messages.commands import (
+    JOINT_STATE,
+    MULTI_ARRAY,
+    TWIST,
+    WRENCH,
+    Commands,
+    CommandTopic,
+    Effect,
+)
+from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.vehicle import Vehicle
+
+_MESSAGES: dict[str, type] = {
+    MULTI_ARRAY: Float64MultiArray, JOINT_STATE: JointState, WRENCH: WrenchStamped,
+    TWIST: TwistStamped,
+}  # fmt: skip
 
 #: Wall time between two looks at which topics have publishers [s].
 REFRESH_PERIOD = 0.1
@@ -47,7 +59,8 @@ class Input:
     topic: str
     message: type
     subscription: Any
-    apply: Callable[[Simulation, bytes], bool]
+    command: CommandTopic
+    record: int = -1
     required: bool = False
     optional: bool = False
     received: int = 0
@@ -84,14 +97,13 @@ class Inputs:
         self._report = report
         self._by_count = settings['lockstep.match'] == 'count'
         self._group = PolledGroup()
+        self.tap: Tap | None = None
         self.saturated = 0
         self.ignored_answers = 0
         self.freshness = {name: Freshness() for name in simulation.vehicles}
         self.inputs: list[Input] = []
-        for vehicle in simulation.vehicles.values():
-            self._add_vehicle(vehicle)
-        self._add('wind', TwistStamped, lambda s, d: self._medium(s, d, 'wind'))
-        self._add('current', TwistStamped, lambda s, d: self._medium(s, d, 'current'))
+        for topic in Commands(simulation, settings).topics:
+            self._add(topic)
         self._choose_awaited(simulation, settings['lockstep.wait_for'])
         self._guard = node.create_guard_condition(lambda: None, callback_group=self._group)
         self._wait_set = _rclpy.WaitSet(len(self.inputs), 1, 0, 0, 0, 0, node.context.handle)
@@ -103,39 +115,17 @@ class Inputs:
 
     # ---- topics ----------------------------------------------------------------------------
 
-    def _add_vehicle(self, vehicle: Vehicle) -> None:
-        name = vehicle.name
-        if vehicle.thrusters:
-            scale = self._thrust_scale(vehicle)
-            self._add(
-                f'{name}/cmd/thrust', Float64MultiArray,
-                lambda s, d: self._thrust(s, vehicle, read_float64_multi_array(d), scale),
-                keep_all=self._by_count,
-            )  # fmt: skip
-            self._add(
-                f'{name}/cmd/thrust_stamped', JointState,
-                lambda s, d: self._thrust_stamped(s, vehicle, d, scale),
-            )  # fmt: skip
-        if vehicle.dof_address >= 0:
-            self._add(f'{name}/cmd/wrench', WrenchStamped, lambda s, d: _wrench(s, vehicle, d))
-        if vehicle.joints:
-            self._add(f'{name}/cmd/joints', JointState, lambda s, d: self._joints(s, vehicle, d))
-
-    def _add(
-        self,
-        topic: str,
-        message: type,
-        apply: Callable[[Simulation, bytes], bool],
-        keep_all: bool = False,
-    ) -> None:
+    def _add(self, topic: CommandTopic) -> None:
+        message = _MESSAGES[topic.type]
+        keep_all = self._by_count and topic.type == MULTI_ARRAY
         history = HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST
         subscription = self._node.create_subscription(
-            message, topic, lambda _: None,
+            message, topic.name, lambda _: None,
             QoSProfile(history=history, depth=1, reliability=ReliabilityPolicy.RELIABLE),
             callback_group=self._group, raw=True,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )  # fmt: skip
-        self.inputs.append(Input(topic, message, subscription, apply))
+        self.inputs.append(Input(topic.name, message, subscription, topic))
 
     def _choose_awaited(self, simulation: Simulation, wait_for: Sequence[str]) -> None:
         wanted = [topic for topic in wait_for if topic]
@@ -256,89 +246,35 @@ class Inputs:
     def _offer(self, simulation: Simulation, entry: Input, data: bytes) -> bool:
         """Apply one message; a fault is counted and reported. True when it answers this step."""
         entry.received += 1
+        if self.tap is not None and entry.record >= 0:
+            self.tap.command(entry.record, data)
         try:
-            return entry.apply(simulation, data)
+            effect = entry.command.apply(data)
         except FluidSimError as error:
             entry.rejected += 1
             entry.last_error = str(error)
             self._report(entry.topic, f'{entry.topic}: rejected: {error}')
             return False
+        self._note(simulation, entry.command.thrust, effect)
+        return effect.answers
 
-    # ---- one function per kind of command --------------------------------------------------
-
-    def _thrust_scale(self, vehicle: Vehicle) -> Any:
-        """Return the limits that a normalized command is a share of, or None for newton."""
-        if self._settings['thrust.unit'] == 'newton':
-            return None
-        if not np.isfinite(vehicle.thrust_range).all():
-            raise ConfigError(
-                f"parameter 'thrust.unit': normalized needs a ctrlrange for every thruster of "
-                f"'{vehicle.name}'"
-            )
-        return vehicle.thrust_range
-
-    def _thrust(self, simulation: Simulation, vehicle: Vehicle, values: Any, scale: Any) -> bool:
-        if scale is not None and len(values) == len(scale):
-            values = np.where(values >= 0, values * scale[:, 1], -values * scale[:, 0])
-        saturated = simulation.set_thrust(vehicle.name, values)
-        if saturated:
-            self.saturated += saturated
-            self._report(
-                f'{vehicle.name} saturated',
-                f"thrust of '{vehicle.name}': {saturated} of {len(values)} values saturated",
-            )
-        freshness = self.freshness[vehicle.name]
-        freshness.commanded_at = self._command_clock(simulation, time.monotonic())
-        freshness.stale = False
-        return True
-
-    def _thrust_stamped(
-        self, simulation: Simulation, vehicle: Vehicle, data: bytes, scale: Any
-    ) -> bool:
-        command = read_joint_state(data)
-        if (
-            self._settings['pacing'] == 'lockstep'
-            and not self._by_count
-            and command.stamp_ns != simulation.time_ns
-        ):
-            if command.stamp_ns > simulation.time_ns:
-                raise CommandError(
-                    f'stamp {command.stamp_ns} ns is ahead of the simulation '
-                    f'({simulation.time_ns} ns); answer an odometry with its own stamp'
+    def _note(self, simulation: Simulation, vehicle: str, effect: Effect) -> None:
+        """Count what became of a command; ``vehicle`` is the one whose thrust it was, or empty."""
+        if not effect.answers:
+            self.ignored_answers += 1
+            return
+        if effect.saturated:
+            self.saturated += effect.saturated
+            if vehicle:
+                count = len(simulation.vehicles[vehicle].thrusters)
+                self._report(
+                    f'{vehicle} saturated',
+                    f"thrust of '{vehicle}': {effect.saturated} of {count} values saturated",
                 )
-            self.ignored_answers += 1  # a second answer to a state that was answered
-            return False
-        values = command.effort
-        if command.names:
-            values = _by_name(vehicle, command.names, values)
-        return self._thrust(simulation, vehicle, values, scale)
-
-    def _joints(self, simulation: Simulation, vehicle: Vehicle, data: bytes) -> bool:
-        command = read_joint_state(data)
-        values = command.position if len(command.position) else command.effort
-        if not command.names:
-            self.saturated += simulation.set_joints(vehicle.name, values.tolist())
-            return True
-        if len(command.names) != len(values):
-            raise CommandError(f'{len(command.names)} names, but {len(values)} values')
-        named = dict(zip(command.names, values.tolist(), strict=True))
-        self.saturated += simulation.set_joints(vehicle.name, named)
-        return True
-
-    def _medium(self, simulation: Simulation, data: bytes, which: str) -> bool:
-        command = read_stamped_pair(data)
-        if command.frame not in ('', 'map'):
-            raise CommandError(f"frame '{command.frame}' is not known; allowed: map")
-        if not np.isfinite(command.first).all():
-            raise CommandError(f'{command.first.tolist()} holds a value that is not finite')
-        if command.stamp_ns > simulation.time_ns:
-            change = ScheduledEvent(at=0, **{which: command.first.tolist()})
-            simulation.schedule(command.stamp_ns, change)
-        elif which == 'wind':
-            simulation.set_wind(command.first)
-        else:
-            simulation.set_current(command.first)
-        return True
+        if vehicle:
+            freshness = self.freshness[vehicle]
+            freshness.commanded_at = self._command_clock(simulation, time.monotonic())
+            freshness.stale = False
 
     # ---- stale commands --------------------------------------------------------------------
 
@@ -356,6 +292,8 @@ class Inputs:
                 freshness.stale = True
                 freshness.times_stale += 1
                 simulation.set_thrust(name, np.zeros(len(simulation.vehicles[name].thrusters)))
+                if self.tap is not None:
+                    self.tap.event(stale=name)
                 self._report(
                     f'{name} stale',
                     f"thrust of '{name}': no command for {limit:g} s, thrust set to zero",
@@ -367,22 +305,3 @@ class Inputs:
             freshness.commanded_at = None
             freshness.stale = False
         self._missing_step = -1
-
-
-def _by_name(vehicle: Vehicle, names: list[str], values: Any) -> Any:
-    """Return values in the thrusters' order."""
-    if sorted(names) != sorted(vehicle.thrusters) or len(names) != len(values):
-        raise CommandError(
-            f'names must be the thrusters {listed(vehicle.thrusters)}, one effort each, or empty'
-        )
-    place = {name: i for i, name in enumerate(names)}
-    return np.array([values[place[name]] for name in vehicle.thrusters])
-
-
-def _wrench(simulation: Simulation, vehicle: Vehicle, data: bytes) -> bool:
-    command = read_stamped_pair(data)
-    frames = {f'{vehicle.name}/base_link': 'base_link', 'map': 'map'}
-    if command.frame not in frames:
-        raise CommandError(f"frame '{command.frame}' is not known; allowed: {listed(frames)}")
-    simulation.set_wrench(vehicle.name, command.first, command.second, frames[command.frame])
-    return True

@@ -14,7 +14,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 
-from fluid_sim_ros.ros.cdr import read_joint_state, read_stamped_pair
+from fluid_sim_ros.messages.cdr import read_joint_state, read_stamped_pair
 from fluid_sim_ros.ros.inputs import PolledGroup
 from fluid_sim_ros.ros.states import read_odometry
 

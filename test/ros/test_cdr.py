@@ -12,7 +12,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from fluid_sim_ros.errors import CommandError
-from fluid_sim_ros.ros.cdr import read_float64_multi_array, read_joint_state, read_stamped_pair
+from fluid_sim_ros.messages.cdr import (
+    read_float64_multi_array,
+    read_joint_state,
+    read_stamped_pair,
+)
 
 pytestmark = pytest.mark.ros
 

@@ -8,7 +8,7 @@ from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
-from fluid_sim_ros.ros import templates
+from fluid_sim_ros.messages import templates
 
 pytestmark = pytest.mark.ros
 

@@ -37,8 +37,7 @@ class CdrReader:
         offset += -(offset - HEADER_SIZE) % alignment
         if offset + size > len(self._data):
             raise CommandError(
-                f'malformed message: ends at byte {len(self._data)}, '
-                f'needs {offset + size} or more'
+                f'malformed message: ends at byte {len(self._data)}, needs {offset + size} or more'
             )
         self._position = offset + size
         return offset

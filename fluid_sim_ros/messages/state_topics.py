@@ -1,0 +1,191 @@
+"""The state topics of a scene as bytes: which there are, how often, and what stands in them."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.messages import templates
+from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.runner import period_steps
+from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+ODOMETRY = 'nav_msgs/msg/Odometry'
+CLOCK = 'rosgraph_msgs/msg/Clock'
+
+#: Rates [Hz] of simulated time and variances, as the node's parameters of the same names.
+DEFAULTS: dict[str, Any] = {
+    'odom.rate': 100.0,
+    'odom.pose_covariance': [0.0] * 6,
+    'odom.twist_covariance': [0.0] * 6,
+    'wrench.rate': 100.0,
+    'medium.rate': 100.0,
+    'joint_states.rate': 100.0,
+    'clock.rate': 100.0,
+}
+
+
+@dataclass
+class StateTopic:
+    """
+    One state topic: its template and which bytes go where.
+
+    Attributes
+    ----------
+    name
+        Relative name, or absolute with a leading slash.
+    type
+        Message type, ``package/msg/Name``.
+    period
+        Steps between two messages.
+    needs_forces
+        Its numbers need ``observe(forces=True)``.
+
+    """
+
+    name: str
+    type: str
+    template: templates.Template
+    period: int
+    copies: list[tuple[memoryview, memoryview]]
+    needs_forces: bool = False
+    prepare: Callable[[], None] | None = None
+
+    def data(self, stamp: memoryview) -> bytes:
+        """Return the message with the numbers of the last ``observe``."""
+        if self.prepare is not None:
+            self.prepare()
+        self.template.stamp[:] = stamp
+        for target, source in self.copies:
+            target[:] = source
+        return self.template.bytes()
+
+
+class StateTopics:
+    """
+    Every state topic of a simulation.
+
+    Attributes
+    ----------
+    topics
+        In the order in which they are published.
+    period
+        Greatest common divisor of the topics' periods [steps].
+    stamp
+        View of the stamp that ``observe`` set.
+
+    Raises
+    ------
+    ConfigError
+        If a rate does not divide the step rate.
+
+    """
+
+    def __init__(self, simulation: Simulation, settings: Mapping[str, Any]) -> None:
+        self._simulation = simulation
+        self._settings = settings
+        self._stamp = templates.StampBytes()
+        self.stamp = self._stamp.view
+        rows = simulation.observe(forces=True)
+        self.topics: list[StateTopic] = []
+        for index, vehicle in enumerate(simulation.vehicles.values()):
+            self._add_vehicle(vehicle, rows[index])
+        self._add('/clock', CLOCK, templates.clock(), 'clock.rate', [])
+        self.period = math.gcd(*(topic.period for topic in self.topics))
+
+    def observe(self, topics: Sequence[Any]) -> None:
+        """Evaluate the present state as far as some topics need it (before ``data``)."""
+        self._simulation.observe(any([topic.needs_forces for topic in topics]))
+        self._stamp.set(self._simulation.time_ns)
+
+    def _add_vehicle(self, vehicle: Vehicle, row: Array) -> None:
+        name, settings = vehicle.name, self._settings
+        quat = row[nat.QUATERNION]
+        velocity = row[nat.LINEAR_VELOCITY.start : nat.ANGULAR_VELOCITY.stop]
+        odometry = templates.odometry(
+            name, settings['odom.pose_covariance'], settings['odom.twist_covariance']
+        )
+        position, orientation, twist = odometry.blocks
+        self._add(f'{name}/odom', ODOMETRY, odometry, 'odom.rate', [
+            (position, templates.as_bytes(row[nat.POSITION])),
+            # wxyz inside, xyzw in the message
+            (orientation[:24], templates.as_bytes(quat[1:])),
+            (orientation[24:], templates.as_bytes(quat[:1])),
+            (twist, templates.as_bytes(velocity)),
+        ])  # fmt: skip
+        columns = {'total': nat.TOTAL, 'thrust': nat.THRUST}
+        columns |= {term: nat.term_columns(term) for term in nat.TERMS}
+        for term, place in columns.items():
+            template = templates.wrench(f'{name}/base_link')
+            copies = [(template.blocks[0], templates.as_bytes(row[place]))]
+            self._add(
+                f'{name}/wrench/{term}', WRENCH, template, 'wrench.rate', copies,
+                needs_forces=True,
+            )  # fmt: skip
+        # of the fluid that the base_link origin is in, where a scene has two
+        for stream in self._simulation.streams:
+            template = templates.twist('map')
+            copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
+            self._add(f'{name}/medium/{stream}', TWIST, template, 'medium.rate', copies)
+        self._add_joint_states(vehicle)
+
+    def _add_joint_states(self, vehicle: Vehicle) -> None:
+        """Publish the joints below the base, then the thrusters with their force as effort."""
+        model, data = self._simulation.model, self._simulation.observed
+        joints = [j for j in range(model.njnt) if _is_single_joint(model, j, vehicle.body_id)]
+        names = [model.joint(j).name or f'joint{j}' for j in joints] + list(vehicle.thrusters)
+        if not names:
+            return
+        template = templates.joint_state(names)
+        numbers = np.zeros((3, len(names)))
+        qpos_places, dof_places = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
+        count = len(joints)
+
+        def prepare() -> None:
+            numbers[0, :count] = data.qpos[qpos_places]
+            numbers[1, :count] = data.qvel[dof_places]
+            numbers[2, :count] = data.qfrc_actuator[dof_places]
+            numbers[2, count:] = data.actuator_force[vehicle.thruster_ids]
+
+        copies = [
+            (block, templates.as_bytes(numbers[i])) for i, block in enumerate(template.blocks)
+        ]
+        self._add(
+            f'{vehicle.name}/joint_states', JOINT_STATE, template, 'joint_states.rate', copies,
+            needs_forces=True, prepare=prepare,
+        )  # fmt: skip
+
+    def _add(
+        self,
+        name: str,
+        message: str,
+        template: templates.Template,
+        rate: str,
+        copies: list[tuple[memoryview, memoryview]],
+        needs_forces: bool = False,
+        prepare: Callable[[], None] | None = None,
+    ) -> None:
+        period = period_steps(
+            self._settings[rate], self._simulation.timestep, f"parameter '{rate}'"
+        )
+        self.topics.append(
+            StateTopic(name, message, template, period, copies, needs_forces, prepare)
+        )
+
+
+def _is_single_joint(model: mujoco.MjModel, joint: int, base: int) -> bool:
+    """Return whether a joint has one position and lies below a base body."""
+    if model.jnt_type[joint] not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
+        return False
+    body = model.jnt_bodyid[joint]
+    while body > base:
+        body = model.body_parentid[body]
+    return bool(body == base)

@@ -1,0 +1,114 @@
+"""
+Where the core and the node hand over what is recorded.
+
+The recorder itself is a part of its own (``recording``), which neither the core nor the node may
+import: they know the protocol below, and the name under which the part is found when it is
+wanted.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+from typing import Any, Protocol
+
+from fluid_sim_ros.errors import MissingExtraError
+from fluid_sim_ros.simulation import Simulation
+
+#: The part that records; it has ``open_recorder`` with the arguments of the function below.
+_PART = 'fluid_sim_ros.recording.recorder'
+
+#: Topic of what changes a run without being a command message, in the node's namespace.
+EVENTS = 'fluid_sim/events'
+EVENTS_TYPE = 'std_msgs/msg/String'
+
+
+@dataclass(frozen=True)
+class RecordedTopic:
+    """A topic to record: its full name, message type, and the quality of service offered."""
+
+    name: str
+    type: str
+    reliable: bool = True
+    depth: int = 10
+    transient_local: bool = False
+
+
+@dataclass(frozen=True)
+class RecorderOptions:
+    """
+    How to record.
+
+    Attributes
+    ----------
+    path
+        ``.mcap`` file, or a folder that gets the file and rosbag2's ``metadata.yaml``.
+    settings
+        Every parameter of the run, as attached to the log.
+    namespace
+        What stands before the relative topic names, ``/`` or ``/name``.
+    policy
+        ``block``: stepping waits for a full queue; ``drop``: states are left out and counted.
+    queue_mib
+        Size of the queue to the writer [MiB].
+    chunk_s
+        Longest wall time that a chunk stays open [s]: what a crash of the machine may cost.
+
+    """
+
+    path: Path
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    namespace: str = '/'
+    policy: str = 'block'
+    queue_mib: float = 8.0
+    chunk_s: float = 1.0
+
+
+class Tap(Protocol):
+    """Takes what is recorded; every method runs in the stepping thread."""
+
+    fault: str
+    written: int
+    dropped: int
+
+    def tick(self, messages: Sequence[tuple[int, bytes]]) -> None:
+        """Keep state messages of the present step, by place in the list; hand all over."""
+
+    def command(self, topic: int, data: bytes) -> None:
+        """Keep a command as it was received, before it takes effect; never dropped."""
+
+    def event(self, **change: Any) -> None:
+        """Keep a change that no command message made, such as a thrust that went stale."""
+
+    def next_segment(self) -> None:
+        """Begin a new file: simulated time starts anew."""
+
+    def close(self) -> None:
+        """End the file properly."""
+
+
+def open_recorder(
+    simulation: Simulation, topics: Sequence[RecordedTopic], options: RecorderOptions
+) -> Tap:
+    """
+    Begin to record a simulation.
+
+    Raises
+    ------
+    MissingExtraError
+        If the extra ``record`` is not installed.
+    ConfigError
+        If the file cannot be made.
+
+    """
+    try:
+        part = import_module(_PART)
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith('fluid_sim_ros'):
+            raise
+        raise MissingExtraError(
+            f'recording needs {error.name}, which is not installed; '
+            'fluid_sim doctor says what to type'
+        ) from None
+    tap: Tap = part.open_recorder(simulation, topics, options)
+    return tap

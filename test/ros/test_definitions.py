@@ -1,0 +1,33 @@
+"""Message definitions kept as data equal those of the installed ROS."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+
+from fluid_sim_ros.messages.commands import JOINT_STATE, MULTI_ARRAY, TWIST, WRENCH
+from fluid_sim_ros.messages.definitions import definition
+from fluid_sim_ros.messages.state_topics import CLOCK, DEFAULTS, ODOMETRY
+from fluid_sim_ros.ros.parameters import TABLE
+
+pytestmark = pytest.mark.ros
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_the_kept_definitions_are_those_of_the_installed_ros():
+    spec = importlib.util.spec_from_file_location('d', ROOT / '.ci/message_definitions.py')
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    kept = json.loads(script.TARGET.read_text(encoding='utf-8'))
+    assert kept == script.collect()
+
+
+@pytest.mark.parametrize('name', [JOINT_STATE, MULTI_ARRAY, TWIST, WRENCH, CLOCK, ODOMETRY])
+def test_every_type_in_use_has_a_definition(name):
+    assert definition(name).hash.startswith('RIHS01_')
+
+
+def test_the_defaults_of_the_state_topics_are_those_of_the_node():
+    assert {name: TABLE[name].default for name in DEFAULTS} == DEFAULTS
