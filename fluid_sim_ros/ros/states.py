@@ -1,5 +1,6 @@
 """Reads what a controller needs from an odometry message, straight from its CDR bytes."""
 
+import math
 import struct
 from typing import NamedTuple
 
@@ -32,6 +33,13 @@ class State(NamedTuple):
     quat_wb_wxyz: tuple[float, ...]
     velocity_b: tuple[float, ...]
     omega_b: tuple[float, ...]
+
+    def is_sound(self) -> bool:
+        """Return whether every number is finite and the quaternion is near a unit one."""
+        _, position, quat, velocity, omega = self
+        w, x, y, z = quat
+        finite = math.isfinite(sum(position) + sum(velocity) + sum(omega))
+        return finite and 0.5 < w * w + x * x + y * y + z * z < 2.0
 
 
 def read_odometry(data: bytes) -> State:

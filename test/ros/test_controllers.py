@@ -96,17 +96,23 @@ def test_ends_cleanly_on_a_signal_before_any_state(kind, number):
     assert error_lines(process.output) == []
 
 
-def test_a_state_that_is_not_finite_is_reported_and_not_answered():
-    with controller('quad') as process, Peer() as peer:
-        simulator = Simulator(peer)
-        bad = odometry(tick=1)
-        bad.pose.pose.position.x = math.nan
-        simulator.publish(bad)
-        simulator.ask(odometry(tick=2))
-        assert PERIOD_NS not in [stamp_ns(a) for a in simulator.answers]
-        answer = simulator.answers[-1]
-        assert np.isfinite(list(answer.effort)).all()
-    assert 'not finite' in process.output
+@pytest.mark.parametrize('kind', ['quad', 'rov'])
+def test_an_unsound_state_is_reported_not_answered_and_forgotten(kind):
+    vehicle, z = ('x500', 1.5) if kind == 'quad' else ('bluerov2_heavy', -5.0)
+    with controller(kind) as process, Peer() as peer:
+        simulator = Simulator(peer, vehicle)
+        before = list(simulator.ask(odometry(z=z, tick=1)).effort)
+        unsound = [odometry(z=z, tick=tick) for tick in (2, 3, 4)]
+        unsound[0].pose.pose.position.x = math.nan
+        unsound[1].twist.twist.angular.y = math.inf
+        unsound[2].pose.pose.orientation.w = 0.0  # no attitude at all
+        for state in unsound:
+            simulator.publish(state)
+        after = list(simulator.ask(odometry(z=z, tick=5)).effort)
+        answered = {stamp_ns(a) // PERIOD_NS for a in simulator.answers}
+    assert answered.isdisjoint({2, 3, 4})
+    assert after == pytest.approx(before, abs=1e-9)
+    assert 'not answered' in process.output
 
 
 def test_time_going_back_starts_anew():

@@ -58,6 +58,20 @@ def test_reads_big_endian_too() -> None:
     assert state.position_w == (0.0, 1.0, 2.0) and state.omega_b == (10.0, 11.0, 12.0)
 
 
+@pytest.mark.parametrize(
+    ('place', 'value', 'sound'),
+    [
+        (None, 0.0, True), (0, float('nan'), False), (5, float('inf'), False),
+        (7, float('-inf'), False), (12, float('nan'), False), (3, 0.0, False), (3, 9.0, False),
+    ],
+)  # fmt: skip
+def test_soundness(place: int | None, value: float, sound: bool) -> None:
+    values = [0.1, 0.2, 0.3, 1.0, *[0.0] * 9]
+    if place is not None:
+        values[place] = value
+    assert read_odometry(serialize_message(odometry('a', 'b', values))).is_sound() is sound
+
+
 def test_a_truncated_message_is_one_clear_error_at_every_length() -> None:
     whole = serialize_message(odometry('x500/odom', 'x500/base_link', [1.0] * 13))
     for size in range(len(whole) - 1):
