@@ -25,6 +25,10 @@ THRUST = slice(28, 34)
 FIRST_TERM = 34
 ROW_WIDTH = FIRST_TERM + 6 * len(TERMS)
 
+#: What ``Native.thruster`` writes: speed and commanded speed [rad/s], thrust [N], shaft torque
+#: [N m], inflow along the thrust axis [m/s], and 1 where the command saturates.
+THRUSTER_VALUES = ('rad_s', 'rad_s_commanded', 'thrust', 'torque', 'inflow', 'saturated')
+
 
 def term_columns(term: str) -> slice:
     """Return the columns of a term's force and torque in an observation row."""
@@ -40,7 +44,9 @@ class Native:
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
     the interpreter lock while they run. ``set_medium(model, data, wind, current) -> int`` takes
     addresses of three numbers or 0, ``get_medium`` the same. ``explicit_force`` and
-    ``kinetic_energy`` take (model, data, scratch, out). See plugins/src/api.cc for their meaning.
+    ``kinetic_energy`` take (model, data, scratch, out). ``thruster(model, data, actuator, out) ->
+    int`` writes THRUSTER_VALUES and returns 1 for the thrust of a fluid_sim.thruster, 2 for its
+    reaction torque, 0 for any other actuator. See plugins/src/api*.cc for their meaning.
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
@@ -68,6 +74,9 @@ class Native:
         self.energy_feed: Callable[[int, int, int, int], None] = library.fsr_energy_feed
         library.fsr_energy_feed.argtypes = [pointer] * 4
         library.fsr_energy_feed.restype = None
+        self.thruster: Callable[[int, int, int, int], int] = library.fsr_thruster
+        library.fsr_thruster.argtypes = [pointer, pointer, integer, pointer]
+        library.fsr_thruster.restype = integer
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p

@@ -9,6 +9,7 @@
 #include "config.h"
 #include "inertia.h"
 #include "stock_terms.h"
+#include "thruster.h"
 
 namespace fluid_sim {
 namespace {
@@ -187,6 +188,7 @@ void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]) {
 
 void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                     bool acceleration, Wrench terms[kTermCount]) {
+  AddRotorTerms(m, d, body, point_w, terms);
   const Assembly* assembly = FindAssembly(m, d);
   const BodyFluid* fluid = assembly ? FindBody(*assembly, body) : nullptr;
   if (!fluid) return;

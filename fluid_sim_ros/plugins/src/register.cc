@@ -4,8 +4,10 @@
 
 #include "assembly.h"
 #include "noop.h"
+#include "thruster.h"
 
 mjPLUGIN_LIB_INIT(fluid_sim) {
   fluid_sim::RegisterNoop();
   fluid_sim::RegisterAssembly();
+  fluid_sim::RegisterThruster();
 }

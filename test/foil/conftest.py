@@ -1,0 +1,6 @@
+"""The foil tests share the benchmarks' model builder (benchmarks/foil_common.py)."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / 'benchmarks'))
