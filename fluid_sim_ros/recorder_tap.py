@@ -8,11 +8,14 @@ wanted.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
 
-from fluid_sim_ros.errors import MissingExtraError
+from fluid_sim_ros.errors import ConfigError, MissingExtraError, listed
+from fluid_sim_ros.messages.commands import CommandTopic
+from fluid_sim_ros.messages.state_topics import StateTopic
 from fluid_sim_ros.simulation import Simulation
 
 #: The part that records; it has ``open_recorder`` with the arguments of the function below.
@@ -80,6 +83,9 @@ class Tap(Protocol):
     def event(self, **change: Any) -> None:
         """Keep a change that no command message made, such as a thrust that went stale."""
 
+    def flush(self) -> None:
+        """Hand over what has waited long enough; for loops that do not tick."""
+
     def next_segment(self) -> None:
         """Begin a new file: simulated time starts anew."""
 
@@ -112,3 +118,36 @@ def open_recorder(
         ) from None
     tap: Tap = part.open_recorder(simulation, topics, options)
     return tap
+
+
+def selected(topics: Sequence[StateTopic], patterns: Sequence[str]) -> list[StateTopic]:
+    """
+    Return the state topics that match one of the shell patterns.
+
+    Raises
+    ------
+    ConfigError
+        If a pattern matches none.
+
+    """
+    names = [topic.name for topic in topics]
+    for pattern in patterns:
+        if not any(fnmatchcase(name, pattern) for name in names):
+            raise ConfigError(
+                f"record.topics: '{pattern}' matches no topic; there are: {listed(names)}"
+            )
+    return [t for t in topics if any(fnmatchcase(t.name, pattern) for pattern in patterns)]
+
+
+def recorded_topics(
+    namespace: str, states: Sequence[StateTopic], commands: Sequence[CommandTopic]
+) -> list[RecordedTopic]:
+    """Return what a log's topics are: states first, then commands."""
+    prefix = namespace.rstrip('/')
+    found = []
+    for state in states:
+        absolute = state.name.startswith('/')
+        name = state.name if absolute else f'{prefix}/{state.name}'
+        found.append(RecordedTopic(name, state.type, depth=1 if absolute else 10))
+    found += [RecordedTopic(f'{prefix}/{c.name}', c.type, depth=1) for c in commands]
+    return found

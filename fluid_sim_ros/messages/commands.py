@@ -24,6 +24,9 @@ JOINT_STATE = 'sensor_msgs/msg/JointState'
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 TWIST = 'geometry_msgs/msg/TwistStamped'
 
+#: What ``Commands`` looks at, as the node's parameters of the same names.
+DEFAULTS = {'thrust.unit': 'newton', 'pacing': 'free', 'lockstep.match': 'stamp'}
+
 
 @dataclass(frozen=True)
 class Effect:

@@ -23,14 +23,14 @@ Array = NDArray[np.float64]
 
 class Template:
     """
-    The bytes of one message, built member by member.
+    The bytes of one message, built member by member; a stamp stands first unless told otherwise.
 
     ``blocks`` are views of its runs of doubles in the order of their ``doubles`` calls that were
     marked as changing; they exist after ``finish``.
     """
 
-    def __init__(self) -> None:
-        self._buffer = bytearray(_HEADER) + bytearray(_STAMP.size)
+    def __init__(self, stamped: bool = True) -> None:
+        self._buffer = bytearray(_HEADER) + bytearray(_STAMP.size if stamped else 0)
         self._places: list[tuple[int, int]] = []
         self.padding: list[int] = []
         self.blocks: list[memoryview] = []

@@ -1,0 +1,1 @@
+"""Logs: recording to MCAP, reading, replay, plots and pictures; works without ROS."""

@@ -1,0 +1,90 @@
+"""What rosbag2 wants beside the messages: quality of service and ``metadata.yaml``."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from fluid_sim_ros.recorder_tap import RecordedTopic
+
+#: Version of metadata.yaml that ROS 2 Jazzy writes.
+_VERSION = 9
+_INFINITE = {'sec': 9223372036, 'nsec': 854775807}
+
+
+def qos(topic: RecordedTopic) -> list[dict[str, Any]]:
+    """Return a topic's offered quality of service as rosbag2 (Jazzy) writes it."""
+    return [
+        {
+            'history': 'keep_last',
+            'depth': topic.depth,
+            'reliability': 'reliable' if topic.reliable else 'best_effort',
+            'durability': 'transient_local' if topic.transient_local else 'volatile',
+            'deadline': dict(_INFINITE),
+            'lifespan': dict(_INFINITE),
+            'liveliness': 'automatic',
+            'liveliness_lease_duration': dict(_INFINITE),
+            'avoid_ros_namespace_conventions': False,
+        }
+    ]
+
+
+def qos_text(topic: RecordedTopic) -> str:
+    """Return the quality of service as the text that channel metadata holds."""
+    return yaml.dump(qos(topic), sort_keys=False, Dumper=_Plain)
+
+
+class _Plain(yaml.SafeDumper):
+    """Writes equal values out in full; rosbag2 reads no anchors."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def write_metadata(
+    path: Path,
+    channels: Sequence[dict[str, Any]],
+    counts: Sequence[int],
+    first_ns: int,
+    last_ns: int,
+) -> None:
+    """Write ``metadata.yaml`` beside an MCAP file, so that its folder is a bag."""
+    start, duration = {'nanoseconds_since_epoch': first_ns}, {'nanoseconds': last_ns - first_ns}
+    total = sum(counts)
+    topics = [
+        {
+            'topic_metadata': {
+                'name': channel['topic'],
+                'type': channel['type'],
+                'serialization_format': 'cdr',
+                'offered_qos_profiles': yaml.safe_load(
+                    channel['metadata']['offered_qos_profiles']
+                ),
+                'type_description_hash': channel['metadata']['topic_type_hash'],
+            },
+            'message_count': count,
+        }
+        for channel, count in zip(channels, counts, strict=True)
+    ]
+    file = {
+        'path': path.name, 'starting_time': start, 'duration': duration, 'message_count': total
+    }  # fmt: skip
+    content = {
+        'rosbag2_bagfile_information': {
+            'version': _VERSION,
+            'storage_identifier': 'mcap',
+            'duration': duration,
+            'starting_time': start,
+            'message_count': total,
+            'topics_with_message_count': topics,
+            'compression_format': '',
+            'compression_mode': '',
+            'relative_file_paths': [path.name],
+            'files': [file],
+            'custom_data': None,
+            'ros_distro': 'jazzy',
+        }
+    }
+    text = yaml.dump(content, sort_keys=False, Dumper=_Plain)
+    (path.parent / 'metadata.yaml').write_text(text, encoding='utf-8')

@@ -1,0 +1,67 @@
+"""Records a simulation that runs without ROS: the same messages, byte for byte, as the node's."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.messages import commands as command_messages
+from fluid_sim_ros.messages import state_topics
+from fluid_sim_ros.messages.commands import Commands
+from fluid_sim_ros.messages.state_topics import StateTopics
+from fluid_sim_ros.recorder_tap import RecorderOptions, recorded_topics, selected
+from fluid_sim_ros.recording.recorder import Recorder
+from fluid_sim_ros.simulation import Simulation
+
+
+class RecordingSink:
+    """
+    A sink for the runner that records every state topic.
+
+    Parameters
+    ----------
+    simulation
+        At step 0.
+    path
+        As ``RecorderOptions.path``.
+    settings
+        Parameters of the run that differ from the node's defaults.
+    topics
+        Patterns of relative topic names.
+
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        path: Path,
+        settings: Mapping[str, Any] | None = None,
+        topics: Sequence[str] = ('*',),
+    ) -> None:
+        known = {**state_topics.DEFAULTS, **command_messages.DEFAULTS, **(settings or {})}
+        self._states = StateTopics(simulation, known)
+        wanted = selected(self._states.topics, topics)
+        commands = Commands(simulation, known).topics
+        self.recorder = Recorder(
+            simulation,
+            recorded_topics('/', wanted, commands),
+            RecorderOptions(path, known),
+        )
+        self._topics = list(enumerate(wanted))
+        self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
+        self.period = self._states.period
+
+    def write(self, simulation: Simulation) -> None:
+        """Record what is due at this step."""
+        step = simulation.step_count
+        due = [(i, topic) for i, topic in self._topics if step % topic.period == 0]
+        self._states.observe([topic for _, topic in due])
+        stamp = self._states.stamp
+        self.recorder.tick([(i, topic.data(stamp)) for i, topic in due])
+
+    def command(self, name: str, data: bytes) -> None:
+        """Record a command message before it is applied, by its relative topic name."""
+        self.recorder.command(self._commands[name], data)
+
+    def close(self) -> None:
+        """End the file."""
+        self.recorder.close()
