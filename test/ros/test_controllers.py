@@ -49,10 +49,12 @@ class Simulator:
 
     def ask(self, state, patience=False):
         """Publish a state and return the answer to it."""
+
         def answered():
             return any(stamp_ns(a) == stamp_ns(state) for a in self.answers)
 
         if patience:  # until both directions are matched
+
             def again():
                 self._states.publish(state)
                 return answered()
@@ -174,9 +176,7 @@ def test_every_parameter_says_its_unit():
     with controller('rov'), Peer() as peer:
         names = peer.call(ListParameters, '/rov_controller/list_parameters').result.names
         own = [n for n in names if n not in ('use_sim_time', 'start_type_description_service')]
-        answer = peer.call(
-            DescribeParameters, '/rov_controller/describe_parameters', names=own
-        )
+        answer = peer.call(DescribeParameters, '/rov_controller/describe_parameters', names=own)
         assert {'scene', 'vehicle', 'waypoints', 'depth', 'gains.velocity'} <= set(own)
         for descriptor in answer.descriptors:
             has_unit = descriptor.description.startswith('[') and ']' in descriptor.description

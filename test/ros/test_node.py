@@ -62,12 +62,14 @@ def test_odometry_and_wrench_are_those_of_the_simulation():
         total = peer.collect(WrenchStamped, 'sphere/wrench/total')
         drag = peer.collect(WrenchStamped, 'sphere/wrench/drag')
         viscous = peer.collect(WrenchStamped, 'sphere/wrench/viscous')
-        with node(scene='sphere', realtime__factor=5.0, duration=1.0) as process:
-            assert process.wait() == 0
+        lists = (odometry, total, drag, viscous)
+        with node(scene='sphere', realtime__factor=5.0):
+            wait_until(lambda: min(map(len, lists)) > 100, 'odometry and wrenches')
+        last = odometry[-1]
         simulation = Simulation('sphere')
-        simulation.step(round(stamp_ns(odometry[-1]) * 1e-9 / simulation.timestep))
+        simulation.step(round(stamp_ns(last) * 1e-9 / simulation.timestep))
         state = simulation.snapshot().vehicles['sphere']
-        pose, twist = odometry[-1].pose.pose, odometry[-1].twist.twist
+        pose, twist = last.pose.pose, last.twist.twist
         assert [pose.position.x, pose.position.y, pose.position.z] == state.position_w.tolist()
         o = pose.orientation
         assert [o.w, o.x, o.y, o.z] == state.quat_wb_wxyz.tolist()
@@ -147,6 +149,7 @@ def test_services_reset_step_pause_and_wind():
         odometry = peer.collect(Odometry, 'x500/odom')
         medium = peer.collect(TwistStamped, 'x500/medium/wind')
         with node(scene='quadrotor', step_count=5):
+            wait_until(lambda: odometry, 'odometry')  # a paused node publishes each step once
             refusal = peer.call(Trigger, f'{SELF}/step')
             assert not refusal.success
             assert 'not paused' in refusal.message
