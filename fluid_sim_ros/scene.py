@@ -8,11 +8,13 @@ import numpy as np
 
 from fluid_sim_ros.environment import Schedule
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.gaits import Gaits
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene_schema import (
+    Gait,
     SceneFile,
     ScheduledEvent,
     VehicleFile,
@@ -43,6 +45,7 @@ class CompiledScene:
     model: mujoco.MjModel
     vehicles: dict[str, Vehicle]
     schedule: Schedule
+    gaits: Gaits
     keyframe_id: int
     streams: tuple[str, ...]
 
@@ -58,7 +61,7 @@ class Scene:
         Name in config/scenes, or the stem of the given file.
     model_path
         The MJCF file.
-    description, medium, duration, keyframe, schedule
+    description, medium, duration, keyframe, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
@@ -72,6 +75,7 @@ class Scene:
     duration: float = 10.0
     keyframe: str | None = None
     schedule: tuple[ScheduledEvent, ...] = ()
+    gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
 
     @classmethod
@@ -143,8 +147,9 @@ class Scene:
         vehicles = self._vehicles(model)
         schedule = Schedule(self.schedule, model.opt.timestep)
         _check_schedule(self, vehicles)
+        gaits = Gaits(self.gait, vehicles, model.opt.timestep)
         streams = _streams(model, self.medium)
-        return CompiledScene(model, vehicles, schedule, self._keyframe_id(model), streams)
+        return CompiledScene(model, vehicles, schedule, gaits, self._keyframe_id(model), streams)
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
         files = self.vehicles
@@ -200,6 +205,7 @@ def _from_yaml(path: Path) -> Scene:
         duration=content.duration,
         keyframe=content.keyframe,
         schedule=tuple(content.schedule),
+        gait=content.gait,
         vehicles=vehicles,
     )
 
@@ -305,7 +311,13 @@ def _streams(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:
 
 
 def _check_schedule(scene: Scene, vehicles: dict[str, Vehicle]) -> None:
-    """Refuse a schedule that names unknown vehicles or has thrust of the wrong length."""
+    """Refuse a schedule or gait of unknown vehicles, or thrust of the wrong length."""
+    for name in scene.gait:
+        if name not in vehicles:
+            raise ConfigError(
+                f"{scene.name}: gait: vehicle '{name}' is not in the scene; "
+                f'it has: {listed(vehicles)}'
+            )
     for event in scene.schedule:
         where = f'{scene.name}: schedule at {event.at:g} s'
         for name in (*event.thrust, *event.wrench):

@@ -77,6 +77,22 @@ class ScheduledEvent(_Strict):
         return self
 
 
+class Gait(_Strict):
+    """
+    A sine wave on a vehicle's joints (control.gait.JointWave), from the start of the scene.
+
+    ``frequency`` [Hz], ``amplitudes``, ``phases`` and ``offsets`` [rad] one per joint in command
+    order, smooth start over ``ramp`` [s], evaluated at ``rate`` [Hz].
+    """
+
+    frequency: Annotated[Number, Field(gt=0)]
+    amplitudes: list[Number]
+    phases: list[Number]
+    offsets: list[Number] = []
+    ramp: Annotated[Number, Field(ge=0)] = 0.0
+    rate: Annotated[Number, Field(gt=0)] = 100.0
+
+
 class SceneFile(_Strict):
     """One file of config/scenes."""
 
@@ -87,6 +103,7 @@ class SceneFile(_Strict):
     duration: Annotated[Number, Field(gt=0)] = 10.0
     keyframe: str | None = None
     schedule: list[ScheduledEvent] = []
+    gait: dict[Name, Gait] = {}
 
 
 class _UniqueKeys(yaml.SafeLoader):
@@ -146,7 +163,7 @@ def _first_fault(schema: type[BaseModel], error: ValidationError) -> str:
 
 
 _MEMBERS: dict[str, type[BaseModel]] = {
-    'vehicles': VehicleFile, 'schedule': ScheduledEvent, 'wrench': BodyWrench
+    'vehicles': VehicleFile, 'schedule': ScheduledEvent, 'wrench': BodyWrench, 'gait': Gait
 }  # fmt: skip
 
 

@@ -32,6 +32,7 @@ class SavedState:
     step: int
     wrenches: dict[str, tuple[Array, Array, str]]
     added_events: tuple[Event, ...]
+    gaits: tuple[str, ...] | None = None  # running ones; None: all of the scene
 
 
 class Simulation:
@@ -71,6 +72,7 @@ class Simulation:
         compiled = self.scene.compile(timestep=timestep, integrator=integrator, fluid=fluid)
         self._vehicles = compiled.vehicles
         self._schedule = compiled.schedule
+        self._gaits = compiled.gaits
         self._keyframe_id = compiled.keyframe_id
         self._engine = Engine(compiled.model, [v.body_id for v in self._vehicles.values()])
         self._streams = Streams(self._engine, compiled.streams)
@@ -146,7 +148,7 @@ class Simulation:
 
         """
         end = self._step + n
-        if end > self._schedule.next_step or self._wrenches:
+        if end > min(self._schedule.next_step, self._gaits.next_step) or self._wrenches:
             self._step_with_events(end)
             return
         done = self._engine_step(n)
@@ -158,7 +160,8 @@ class Simulation:
         while self._step < end:
             for change in self._schedule.take_due(self._step):
                 self._apply(change)
-            stop = min(end, self._schedule.next_step)
+            self._gaits.write_due(self._step, self._data.ctrl)
+            stop = min(end, self._schedule.next_step, self._gaits.next_step)
             if self._wrenches:
                 # the axes of a commanded wrench turn with the body: hold them over one step only
                 stop = self._step + 1
@@ -188,6 +191,7 @@ class Simulation:
         self._engine.reset(identity)
         self._streams.reset()
         self._schedule.rewind(0)
+        self._gaits.restart(0)
         self._step = 0
         self._wrenches: dict[str, tuple[Array, Array, str]] = {}
 
@@ -237,7 +241,8 @@ class Simulation:
         """
         Command the joint actuators of a vehicle, by name or all in order; as ``set_thrust``.
 
-        A mapping may name some of them; the others keep their commands.
+        A mapping may name some of them; the others keep their commands. It ends the scene's gait
+        of this vehicle until the next reset.
         """
         target = self.vehicle(vehicle)
         what = f"joints of '{vehicle}'"
@@ -249,9 +254,11 @@ class Simulation:
                 )
             held = dict(zip(target.joints, self._data.ctrl[target.joint_ids], strict=True))
             values = [{**held, **values}[name] for name in target.joints]
-        return self._set_controls(
+        saturated = self._set_controls(
             what, values, target.joints, target.joint_ids, target.joint_range
         )
+        self._gaits.end(vehicle)
+        return saturated
 
     def _set_controls(
         self,
@@ -416,6 +423,7 @@ class Simulation:
             step=self._step,
             wrenches=dict(self._wrenches),
             added_events=self._schedule.added(),
+            gaits=self._gaits.running,
         )
 
     def load_state(self, state: SavedState) -> None:
@@ -433,6 +441,7 @@ class Simulation:
         self._step = state.step
         self._wrenches = dict(state.wrenches)
         self._schedule.rewind(state.step, state.added_events)
+        self._gaits.restart(state.step, state.gaits)
 
 
 def _finite(what: str, values: Sequence[float] | Array, size: int, names: str = '') -> Array:

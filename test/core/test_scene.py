@@ -109,6 +109,12 @@ def test_a_fault_in_the_yaml_is_one_line_with_file_and_key(write_scene, text, li
         ('keyframe: up', "keyframe 'up' is not in the model; it has: deep"),
         ('schedule: [{at: 1, thrust: {x: [1]}}]', "vehicle 'x' is not in the scene; it has: boat"),
         ('schedule: [{at: 1, thrust: {boat: [1]}}]', 'has 1 values; it needs 2'),
+        ('gait: {x: {frequency: 1, amplitudes: [1], phases: [0]}}', "gait: vehicle 'x' is not in"),
+        ('gait: {boat: {frequency: 1, amplitudes: [1, 2], phases: [0, 0]}}', 'each of: fin'),
+        (
+            'gait: {boat: {frequency: 1, amplitudes: [1], phases: [0], rate: 333}}',
+            'rate 333 Hz does not divide the step rate',
+        ),
         ('schedule: [{at: 0.0015, wind: [1, 0, 0]}]', 'not a whole number of timesteps'),
     ],
 )
