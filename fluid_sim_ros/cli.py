@@ -80,6 +80,11 @@ def _build_parser() -> argparse.ArgumentParser:
             help=f'velocity of the {medium} from the start [m/s], east north up',
         )  # fmt: skip
     run.add_argument('--pacing', choices=('free', 'realtime'), default='free')
+    run.add_argument('--record', metavar='PATH', help='record to PATH.mcap, or a folder: a bag')
+    run.add_argument(
+        '--record-topics', metavar='PATTERN', nargs='+', default=['*'],
+        help='shell patterns of the topics to record (default all)',
+    )  # fmt: skip
     run.add_argument('--json', metavar='PATH', help=json_help)
     run.set_defaults(function=_run)
 
@@ -110,8 +115,12 @@ def _run(arguments: argparse.Namespace) -> int:
         wind=arguments.wind,
         current=arguments.current,
         realtime=arguments.pacing == 'realtime',
+        record=arguments.record,
+        record_topics=arguments.record_topics,
     )
     _show(arguments.json, summary_table(result), result)
+    if arguments.record and arguments.json != '-':
+        _console().print(f'Log: {result["record"]}', soft_wrap=True)
     return 0
 
 

@@ -1,7 +1,8 @@
 """Runs a scene without ROS: the same simulation and loop as the node, with a progress bar."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,10 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.pacing import Pacing, RealTime
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.runner import NoSource, Runner, duration_steps
+from fluid_sim_ros.runner import NoSource, Runner, Sink, duration_steps
 from fluid_sim_ros.simulation import Simulation
 
 #: Simulated time between two looks at the forces [s].
@@ -67,6 +68,8 @@ def run_scene(
     wind: Sequence[float] | None = None,
     current: Sequence[float] | None = None,
     realtime: bool = False,
+    record: str | Path | None = None,
+    record_topics: Sequence[str] = ('*',),
 ) -> dict[str, Any]:
     """
     Run a scene to its end and return what came out, ready for JSON.
@@ -81,6 +84,8 @@ def run_scene(
         Velocity of the medium from the start [m/s], world axes (ENU).
     realtime
         Keep pace with the clock instead of running free.
+    record, record_topics
+        MCAP file or bag folder to record to, and shell patterns of the topics.
 
     Returns
     -------
@@ -112,10 +117,42 @@ def run_scene(
     with _progress_bar() as progress:
         progress.add_task(simulation.scene.name, total=seconds)
         watcher = Watcher(simulation, progress)
-        begin = time.perf_counter()
-        Runner(simulation, NoSource(), [watcher], pacing).run(until=steps)
-        wall = time.perf_counter() - begin
-    return _summary(simulation, watcher, wall)
+        sinks: list[Sink] = [watcher]
+        with _recording(simulation, record, record_topics, sinks, fluid) as files:
+            begin = time.perf_counter()
+            Runner(simulation, NoSource(), sinks, pacing).run(until=steps)
+            wall = time.perf_counter() - begin
+    return _summary(simulation, watcher, wall) | files
+
+
+@contextmanager
+def _recording(
+    simulation: Simulation,
+    path: str | Path | None,
+    topics: Sequence[str],
+    sinks: list[Sink],
+    fluid: str | None,
+) -> Iterator[dict[str, Any]]:
+    """Add a recording sink where one is asked for; give what the result says of it."""
+    if path is None:
+        yield {}
+        return
+    try:
+        from fluid_sim_ros.recording.sink import RecordingSink
+    except ModuleNotFoundError as error:
+        raise MissingExtraError(
+            f'--record needs {error.name}, which is not installed; '
+            'fluid_sim doctor says what to type'
+        ) from None
+    settings = {'fluid': fluid or ''}
+    sink = RecordingSink(simulation, Path(path), settings, topics)
+    sinks.append(sink)
+    try:
+        yield {'record': str(sink.recorder.paths[0])}
+    finally:
+        sink.close()
+    if sink.recorder.fault:
+        raise ConfigError(sink.recorder.fault)
 
 
 def summary_table(result: dict[str, Any]) -> Table:

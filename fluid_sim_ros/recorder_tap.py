@@ -14,8 +14,6 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError, listed
-from fluid_sim_ros.messages.commands import CommandTopic
-from fluid_sim_ros.messages.state_topics import StateTopic
 from fluid_sim_ros.simulation import Simulation
 
 #: The part that records; it has ``open_recorder`` with the arguments of the function below.
@@ -28,10 +26,23 @@ EVENTS_TYPE = 'std_msgs/msg/String'
 
 @dataclass(frozen=True)
 class RecordedTopic:
-    """A topic to record: its full name, message type, and the quality of service offered."""
+    """
+    A topic to record.
+
+    Attributes
+    ----------
+    name, type
+        Full name, and message type.
+    key
+        Name that the simulation has for it, relative to the namespace and before any remapping.
+    reliable, depth, transient_local
+        Quality of service that is offered.
+
+    """
 
     name: str
     type: str
+    key: str = ''
     reliable: bool = True
     depth: int = 10
     transient_local: bool = False
@@ -71,6 +82,7 @@ class Tap(Protocol):
     """Takes what is recorded; every method runs in the stepping thread."""
 
     fault: str
+    paths: list[Path]
     written: int
     dropped: int
 
@@ -120,9 +132,9 @@ def open_recorder(
     return tap
 
 
-def selected(topics: Sequence[StateTopic], patterns: Sequence[str]) -> list[StateTopic]:
+def selected(names: Sequence[str], patterns: Sequence[str]) -> set[str]:
     """
-    Return the state topics that match one of the shell patterns.
+    Return the topic names that match one of the shell patterns.
 
     Raises
     ------
@@ -130,24 +142,9 @@ def selected(topics: Sequence[StateTopic], patterns: Sequence[str]) -> list[Stat
         If a pattern matches none.
 
     """
-    names = [topic.name for topic in topics]
     for pattern in patterns:
         if not any(fnmatchcase(name, pattern) for name in names):
             raise ConfigError(
                 f"record.topics: '{pattern}' matches no topic; there are: {listed(names)}"
             )
-    return [t for t in topics if any(fnmatchcase(t.name, pattern) for pattern in patterns)]
-
-
-def recorded_topics(
-    namespace: str, states: Sequence[StateTopic], commands: Sequence[CommandTopic]
-) -> list[RecordedTopic]:
-    """Return what a log's topics are: states first, then commands."""
-    prefix = namespace.rstrip('/')
-    found = []
-    for state in states:
-        absolute = state.name.startswith('/')
-        name = state.name if absolute else f'{prefix}/{state.name}'
-        found.append(RecordedTopic(name, state.type, depth=1 if absolute else 10))
-    found += [RecordedTopic(f'{prefix}/{c.name}', c.type, depth=1) for c in commands]
-    return found
+    return {name for name in names if any(fnmatchcase(name, p) for p in patterns)}

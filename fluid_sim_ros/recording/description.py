@@ -3,26 +3,29 @@
 import json
 import platform
 import subprocess
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib import metadata
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 import mujoco
 import numpy as np
+from pydantic import TypeAdapter
 
 from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.recorder_tap import RecorderOptions
+from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions
 from fluid_sim_ros.scene import Scene
-from fluid_sim_ros.scene_schema import ScheduledEvent, VehicleFile
-from fluid_sim_ros.simulation import SavedState, Simulation
+from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.streams import SavedStreams
 
 #: Version of the layout of the attachments below.
 FORMAT = 1
 RUN, STATE, MODEL = 'fluid_sim/run.json', 'fluid_sim/state.f64', 'fluid_sim/model/'
+
+#: Turns every field of a scene into JSON and back.
+_SCENE = TypeAdapter(Scene)
 
 
 class LogError(FluidSimError):
@@ -86,34 +89,27 @@ class RunDescription:
             path = folder / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)
-        scene = self.run['scene']
-        vehicles = scene['vehicles']
-        if vehicles is not None:
-            vehicles = {name: VehicleFile(**file) for name, file in vehicles.items()}
-        return Scene(
-            name=scene['name'],
-            model_path=folder / scene['model'],
-            description=scene['description'],
-            medium=scene['medium'],
-            duration=scene['duration'],
-            keyframe=scene['keyframe'],
-            schedule=tuple(ScheduledEvent.model_validate(e) for e in scene['schedule']),
-            vehicles=vehicles,
-        )
+        stated = self.run['scene']
+        path = folder / stated['model_path']
+        scene: Scene = _SCENE.validate_python({**stated, 'model_path': path})
+        return scene
 
-    def saved_state(self) -> SavedState:
-        """Return the state at the begin."""
+    def restore(self, simulation: Simulation) -> None:
+        """Bring a new simulation of the scene to the state at the log's begin."""
         streams = self.run['streams']
-        return SavedState(
+        saved = replace(
+            simulation.save_state(),
             engine=np.frombuffer(self.state, '<f8').copy(),
             streams=SavedStreams(
                 np.array(streams['wind']), np.array(streams['current']), streams['enabled']
             ),
-            step=0, wrenches={}, added_events=(),
-        )  # fmt: skip
+        )
+        simulation.load_state(saved)
 
 
-def describe(simulation: Simulation, options: RecorderOptions) -> RunDescription:
+def describe(
+    simulation: Simulation, topics: Sequence[RecordedTopic], options: RecorderOptions
+) -> RunDescription:
     """
     Return the description of a simulation that stands at step 0.
 
@@ -139,12 +135,13 @@ def describe(simulation: Simulation, options: RecorderOptions) -> RunDescription
             'python': platform.python_version(),
             'machine': f'{platform.system()} {platform.machine()}',
         },
-        'scene': _scene(simulation.scene, model_path),
+        'scene': _SCENE.dump_python(simulation.scene, mode='json') | {'model_path': model_path},
         'seed': simulation.seed,
         'timestep': simulation.timestep,
         'integrator': integrator.removeprefix('mjINT_').lower(),
         'fluid': options.settings.get('fluid') or None,
         'namespace': options.namespace,
+        'topics': {topic.name: topic.key for topic in topics},
         'settings': dict(options.settings),
         'streams': {
             'wind': saved.streams.wind_w.tolist(),
@@ -153,16 +150,6 @@ def describe(simulation: Simulation, options: RecorderOptions) -> RunDescription
         },
     }
     return RunDescription(run, saved.engine.astype('<f8').tobytes(), files)
-
-
-def _scene(scene: Scene, model_path: str) -> dict[str, Any]:
-    vehicles = scene.vehicles
-    return {
-        **{k: v for k, v in asdict(scene).items() if k not in ('model_path', 'vehicles')},
-        'model': model_path,
-        'schedule': [event.model_dump() for event in scene.schedule],
-        'vehicles': vehicles and {name: file.model_dump() for name, file in vehicles.items()},
-    }
 
 
 def model_files(path: Path) -> tuple[str, dict[str, bytes]]:

@@ -52,7 +52,8 @@ class Recorder:
     ) -> None:
         self._simulation = simulation
         self._options = options
-        events = RecordedTopic(_join(options.namespace, EVENTS), EVENTS_TYPE)
+        name = f'{options.namespace.rstrip("/")}/{EVENTS}'
+        events = RecordedTopic(name, EVENTS_TYPE, EVENTS)
         self._topics = [*topics, events]
         self._event_topic = len(topics)
         self._limit = int(options.queue_mib * (1 << 20))
@@ -160,7 +161,7 @@ class Recorder:
     def _start_segment(self) -> None:
         path = _create(_segment_path(self._options.path, len(self.paths)))
         self.paths.append(path)
-        description = describe(self._simulation, self._options)
+        description = describe(self._simulation, self._topics, self._options)
         if self._process is None:
             self._start_process()
         run = description.run
@@ -274,10 +275,6 @@ def _channel(topic: RecordedTopic) -> dict[str, Any]:
             'offered_qos_profiles': rosbag2.qos_text(topic), 'topic_type_hash': known.hash
         },
     }  # fmt: skip
-
-
-def _join(namespace: str, name: str) -> str:
-    return f'{namespace.rstrip("/")}/{name}'
 
 
 def _segment_path(path: Path, number: int) -> Path:

@@ -8,7 +8,7 @@ from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.commands import Commands
 from fluid_sim_ros.messages.state_topics import StateTopics
-from fluid_sim_ros.recorder_tap import RecorderOptions, recorded_topics, selected
+from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions, selected
 from fluid_sim_ros.recording.recorder import Recorder
 from fluid_sim_ros.simulation import Simulation
 
@@ -39,13 +39,15 @@ class RecordingSink:
     ) -> None:
         known = {**state_topics.DEFAULTS, **command_messages.DEFAULTS, **(settings or {})}
         self._states = StateTopics(simulation, known)
-        wanted = selected(self._states.topics, topics)
+        names = selected([topic.name for topic in self._states.topics], topics)
+        wanted = [topic for topic in self._states.topics if topic.name in names]
         commands = Commands(simulation, known).topics
-        self.recorder = Recorder(
-            simulation,
-            recorded_topics('/', wanted, commands),
-            RecorderOptions(path, known),
-        )
+        channels = [
+            RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, depth=depth)
+            for group, depth in ((wanted, 10), (commands, 1))
+            for t in group
+        ]
+        self.recorder = Recorder(simulation, channels, RecorderOptions(path, known))
         self._topics = list(enumerate(wanted))
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
         self.period = self._states.period

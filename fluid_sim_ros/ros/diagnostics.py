@@ -9,10 +9,12 @@ import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
 
 from fluid_sim_ros.pacing import Lockstep, RealTime
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.runner import Runner
 from fluid_sim_ros.simulation import Simulation
@@ -75,6 +77,8 @@ class Diagnostics:
         self._simulation = simulation
         self._inputs = inputs
         self._graph = graph
+        self.tap: Tap | None = None
+        self.record = -1
         self._publisher = node.create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
         )
@@ -94,7 +98,12 @@ class Diagnostics:
         message.status += [
             self._vehicle(i, name) for i, name in enumerate(self._simulation.vehicles)
         ]
-        self._publisher.publish(message)
+        if self.tap is not None:
+            message.status.append(self._recording(self.tap))
+        data = serialize_message(message)
+        self._publisher.publish(data)
+        if self.tap is not None and self.record >= 0:
+            self.tap.command(self.record, data)
 
     def destroy(self) -> None:
         """Remove the publisher from the node."""
@@ -178,6 +187,16 @@ class Diagnostics:
     def _peers(self) -> DiagnosticStatus:
         faults = self._graph.faults
         return self._status('graph', _ERROR if faults else _OK, '; '.join(faults) or 'alone')
+
+    def _recording(self, tap: Tap) -> DiagnosticStatus:
+        values = {
+            'file': tap.paths[-1], 'messages': tap.written, 'left out (disk too slow)': tap.dropped
+        }  # fmt: skip
+        if tap.fault:
+            return self._status('recording', _ERROR, tap.fault, **values)
+        if tap.dropped:
+            return self._status('recording', _WARN, f'{tap.dropped} states left out', **values)
+        return self._status('recording', _OK, 'recording', **values)
 
     def _vehicle(self, index: int, name: str) -> DiagnosticStatus:
         simulation = self._simulation

@@ -24,6 +24,7 @@ from fluid_sim_ros.scene import FLUID_RUNGS, INTEGRATORS
 PACINGS = ('realtime', 'free', 'lockstep')
 MATCHES = ('stamp', 'count')
 TIMEOUT_RULES = ('hold', 'continue', 'stop')
+RECORD_POLICIES = ('block', 'drop')
 THRUST_UNITS = ('newton', 'normalized')
 #: Largest ROS_DOMAIN_ID whose UDP ports stay below 65536 (OMG DDSI-RTPS 2.5, section 9.6.2.3).
 _LARGEST_DOMAIN = 232
@@ -121,6 +122,23 @@ TABLE: dict[str, Declared] = {
         100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3
     ),
     'clock.rate': Declared(100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
+    'record': Declared(
+        '',
+        'MCAP file (.mcap) to record to, or a folder that becomes a rosbag2 bag; empty = no '
+        'recording; a reset begins a new one',
+    ),
+    'record.topics': Declared(
+        ['*'],
+        'shell patterns of the state topics to record; commands are always recorded, because the '
+        'run cannot be repeated without them',
+    ),
+    'record.policy': Declared(
+        'block', 'when the disk is too slow: wait, or leave states out', choices=RECORD_POLICIES
+    ),
+    'record.queue': Declared(8.0, '[MiB] size of the queue to the writer', low=0.25, high=1024),
+    'record.chunk': Declared(
+        1.0, '[s] wall time after which data is on the disk', low=0.05, high=3600
+    ),
     'markers.rate': Declared(20.0, '[Hz] of wall time', low=0.1, high=100),
 }
 

@@ -14,6 +14,7 @@ from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.markers import VehicleMarkers
 from fluid_sim_ros.ros.outputs import Outputs
+from fluid_sim_ros.ros.recording import start_recording
 from fluid_sim_ros.runner import Runner, duration_steps, period_steps
 from fluid_sim_ros.simulation import Simulation
 
@@ -83,9 +84,14 @@ class Session:
             self._housekeeping,
         )  # fmt: skip
         self._diagnosed_at = self._marked_at = 0.0
+        self.tap = start_recording(
+            node, self.simulation, settings, self.inputs, self.outputs, self._diagnostics
+        )
 
     def destroy(self) -> None:
-        """Remove every topic from the node."""
+        """End the log and remove every topic from the node."""
+        if self.tap is not None:
+            self.tap.close()
         self.inputs.destroy()
         self.outputs.destroy()
         self._diagnostics.destroy()
@@ -112,8 +118,12 @@ class Session:
 
     def _housekeeping(self) -> None:
         now = time.monotonic()
+        if self.tap is not None:
+            self.tap.flush()
         if now - self._diagnosed_at >= _DIAGNOSTICS_PERIOD:
             self._diagnosed_at = now
+            if self.tap is not None and self.tap.fault:
+                self._report('recording', f'{self.tap.fault}; going on without')
             self._diagnostics.publish(self.runner, self.diverged)
         if now - self._marked_at >= 1.0 / self._settings['markers.rate']:
             self._marked_at = now
@@ -164,6 +174,8 @@ class Session:
         self.simulation.enable_wind(self._settings['enable_wind'])
         self.diverged = ''
         self.inputs.forget()
+        if self.tap is not None:
+            self.tap.next_segment()
         self.runner.restart()
         return self._time()
 
@@ -184,8 +196,7 @@ class Session:
 
     def enable_wind(self, enabled: bool) -> str:
         """Switch wind and current on or off."""
-        self._settings['enable_wind'] = enabled
-        self.simulation.enable_wind(enabled)
+        self.change({'enable_wind': enabled})
         return self._time()
 
     def change(self, values: dict[str, Any]) -> None:
@@ -199,6 +210,8 @@ class Session:
                 self.inputs.forget()
             if 'enable_wind' in values:
                 self.simulation.enable_wind(values['enable_wind'])
+            if self.tap is not None:
+                self.tap.event(settings=values)
         except FluidSimError:
             self._settings.update(before)
             raise

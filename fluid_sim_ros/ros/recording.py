@@ -1,0 +1,78 @@
+"""Connects a node's topics with a recorder."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from rclpy.node import Node
+
+from fluid_sim_ros.recorder_tap import (
+    RecordedTopic,
+    RecorderOptions,
+    Tap,
+    open_recorder,
+    selected,
+)
+from fluid_sim_ros.ros.diagnostics import Diagnostics
+from fluid_sim_ros.ros.inputs import Inputs
+from fluid_sim_ros.ros.outputs import Outputs
+from fluid_sim_ros.simulation import Simulation
+
+_DIAGNOSTICS = '/diagnostics'
+_DIAGNOSTICS_TYPE = 'diagnostic_msgs/msg/DiagnosticArray'
+
+
+def start_recording(
+    node: Node,
+    simulation: Simulation,
+    settings: Mapping[str, Any],
+    inputs: Inputs,
+    outputs: Outputs,
+    diagnostics: Diagnostics,
+) -> Tap | None:
+    """
+    Begin to record what the parameters ask for; None when they ask for nothing.
+
+    Raises
+    ------
+    ConfigError, MissingExtraError
+        If a pattern matches no topic, the file cannot be made, or the extra is missing.
+
+    """
+    if not settings['record']:
+        return None
+    patterns = [pattern for pattern in settings['record.topics'] if pattern]
+    names = [topic.name for topic in outputs.topics] + [_DIAGNOSTICS]
+    wanted = selected(names, patterns)
+    recorded: list[RecordedTopic] = []
+    for output in outputs.topics:
+        if output.name in wanted:
+            output.record = len(recorded)
+            depth = 1 if output.name == '/clock' else 10
+            full = output.publisher.topic_name
+            recorded.append(RecordedTopic(full, output.state.type, output.name, depth=depth))
+    for entry in inputs.inputs:
+        entry.record = len(recorded)
+        full = entry.subscription.topic_name
+        recorded.append(RecordedTopic(full, entry.command.type, entry.topic, depth=1))
+    if _DIAGNOSTICS in wanted:
+        diagnostics.record = len(recorded)
+        recorded.append(RecordedTopic(_DIAGNOSTICS, _DIAGNOSTICS_TYPE, _DIAGNOSTICS))
+    options = RecorderOptions(
+        path=Path(settings['record']),
+        settings={name: _plain(value) for name, value in settings.items()},
+        namespace=node.get_namespace(),
+        policy=settings['record.policy'],
+        queue_mib=settings['record.queue'],
+        chunk_s=settings['record.chunk'],
+    )
+    tap = open_recorder(simulation, recorded, options)
+    inputs.tap = outputs.tap = diagnostics.tap = tap
+    return tap
+
+
+def _plain(value: Any) -> Any:
+    """Return a parameter's value as JSON can hold it (ROS gives arrays of its own kind)."""
+    if isinstance(value, str | int | float):
+        return value
+    return list(value)

@@ -1,0 +1,138 @@
+"""The node records what it published and received, over real DDS."""
+
+import resource
+import signal
+from pathlib import Path
+
+import pytest
+from flights import events_of
+from harness import NODE, Peer, Process, node, stamp_ns, wait_until
+from mcap.reader import make_reader
+from nav_msgs.msg import Odometry
+from rclpy.serialization import deserialize_message, serialize_message
+from std_msgs.msg import Float64MultiArray
+from std_srvs.srv import SetBool, Trigger
+
+from fluid_sim_ros.headless import run_scene
+
+pytestmark = pytest.mark.ros
+
+VEHICLE = 'bluerov2_heavy'
+
+
+def read(path):
+    """Return the messages (sequence, data) of each topic."""
+    found = {}
+    with path.open('rb') as stream:
+        reader = make_reader(stream, validate_crcs=True)
+        for _, channel, message in reader.iter_messages(log_time_order=False):
+            found.setdefault(channel.topic, []).append((message.sequence, message.data))
+    return found
+
+
+def test_what_was_published_and_received_is_in_the_log(tmp_path):
+    path = tmp_path / 'a.mcap'
+    with Peer() as peer:
+        odometry = peer.collect(Odometry, f'{VEHICLE}/odom')
+        with node(scene='rov', record=path, duration=2.0, command_timeout=0.3) as process:
+            thrust = peer.publisher(Float64MultiArray, f'{VEHICLE}/cmd/thrust')
+            command = Float64MultiArray(data=[1.0, -2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
+            thrust.publish(command)
+            peer.call(SetBool, 'fluid_sim_node/enable_wind', data=False)
+            assert process.wait() == 0
+    log = read(path)
+    received = log[f'/{VEHICLE}/cmd/thrust']
+    assert [deserialize_message(data, Float64MultiArray) for _, data in received] == [command]
+    recorded = [deserialize_message(data, Odometry) for _, data in log[f'/{VEHICLE}/odom']]
+    assert len(recorded) == 201
+    by_stamp = {stamp_ns(m): m for m in recorded}
+    assert len(odometry) > 50
+    for message in odometry:
+        assert by_stamp[stamp_ns(message)] == message
+    # nobody subscribed to these
+    assert len(log[f'/{VEHICLE}/wrench/damping']) == len(log['/clock']) == 201
+    assert len(log['/diagnostics']) >= 1
+    events = events_of(data for _, data in log['/fluid_sim/events'])
+    assert events == [{'settings': {'enable_wind': False}}, {'stale': VEHICLE}]
+
+
+def test_topics_are_selected_and_a_reset_begins_a_new_log(tmp_path):
+    path = tmp_path / 'a.mcap'
+    topics = "['*/odom', '/clock']"
+    with Peer() as peer, node(scene='sphere', record=path, record__topics=topics) as process:
+        for _ in range(2):
+            peer.call(Trigger, 'fluid_sim_node/reset')
+        process.signal(signal.SIGINT)
+        assert process.wait() == 0
+    logs = [read(tmp_path / name) for name in ('a.mcap', 'a_1.mcap', 'a_2.mcap')]
+    for log in logs:
+        assert set(log) == {'/sphere/odom', '/clock'}
+        assert log['/sphere/odom'][0][0] == 0
+    assert logs[0]['/sphere/odom'][0] == logs[1]['/sphere/odom'][0]
+
+
+def test_a_namespace_stands_before_the_recorded_topics(tmp_path):
+    path = tmp_path / 'a.mcap'
+    arguments = ['--ros-args', '-r', '__ns:=/tank']
+    with Process(NODE, *arguments, scene='sphere', record=path, duration=0.1) as process:
+        assert process.wait() == 0
+    assert {'/tank/sphere/odom', '/clock'} <= set(read(path))
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'line'),
+    [
+        ({'record': '/proc/a.mcap'}, 'record: /proc/a.mcap: No such file or directory'),
+        ({'record__topics': "['moon']"}, "'moon' matches no topic; there are: sphere/odom"),
+    ],
+)
+def test_a_wrong_setting_is_one_line(tmp_path, parameters, line):
+    given = {'scene': 'sphere', 'record': tmp_path / 'a.mcap', **parameters}
+    with node(**given) as process:
+        assert process.wait() == 2
+    assert line in process.output
+
+
+def test_a_full_disk_is_reported_and_the_node_flies_on(tmp_path):
+    path = tmp_path / 'a.mcap'
+    with Peer() as peer:
+        peer.watch_diagnostics()
+        with node(scene='rov', record=path, pacing='free') as process:
+            wait_until(lambda: path.exists(), 'the log')
+            limit_files(writer_of(process), 1 << 16)
+            wait_until(lambda: peer.diagnostics.get('recording', (0,))[0] == 2, 'the report')
+            step = int(peer.diagnostics['loop'][2]['step'])
+            wait_until(lambda: int(peer.diagnostics['loop'][2]['step']) > step, 'more steps')
+            assert 'File too large' in peer.diagnostics['recording'][1]
+            process.signal(signal.SIGINT)
+            assert process.wait() == 0
+    assert 'going on without' in process.output
+
+
+def writer_of(process):
+    """Return the process id of a node's writer."""
+    children = f'/proc/{process._process.pid}/task/{process._process.pid}/children'
+    found = []
+
+    def look():
+        found[:] = Path(children).read_text().split()
+        return bool(found)
+
+    wait_until(look, 'the writer process')
+    return int(found[0])
+
+
+def limit_files(pid, size):
+    """Let a process write files up to a size only, as on a disk that is full."""
+    resource.prlimit(pid, resource.RLIMIT_FSIZE, (size, size))
+
+
+def test_equal_messages_have_equal_bytes_with_and_without_ros(tmp_path):
+    run_scene('sphere', duration=0.5, record=tmp_path / 'a.mcap')
+    with node(scene='sphere', record=tmp_path / 'b.mcap', duration=0.5, pacing='free') as process:
+        assert process.wait() == 0
+    first, second = read(tmp_path / 'a.mcap'), read(tmp_path / 'b.mcap')
+    assert second.pop('/diagnostics')
+    assert first == second
+    message = deserialize_message(first['/sphere/odom'][-1][1], Odometry)
+    assert len(serialize_message(message)) == len(first['/sphere/odom'][-1][1])
