@@ -39,8 +39,9 @@ from fluid_sim_ros.ros.demo_summary import (
 from fluid_sim_ros.ros.recorder import Recorder
 from fluid_sim_ros.ros.states import read_odometry
 
-#: Domains to choose from: their UDP ports stay below the ephemeral ports of Linux.
-_DOMAINS = range(1, 101)
+#: Domains to choose from: above those that people and tests use, and with UDP ports below the
+#: ephemeral ports of Linux.
+_DOMAINS = range(61, 101)
 #: Longest wait for the first state, and for the next one during the run [s, wall].
 _START_PATIENCE, _PATIENCE = 30.0, 15.0
 #: Sleep between two looks at what has arrived [s].

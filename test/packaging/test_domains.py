@@ -16,7 +16,7 @@ except BlockingIOError:
 @pytest.mark.usefixtures('ros_domain_of_module')
 def test_a_test_and_its_module_have_different_domains(ros_domain, ros_domain_of_module):
     assert ros_domain != ros_domain_of_module
-    assert {ros_domain, ros_domain_of_module} <= set(range(1, 101))
+    assert {ros_domain, ros_domain_of_module} <= set(range(1, 61))
     assert os.environ['ROS_DOMAIN_ID'] == str(ros_domain)
 
 
