@@ -270,7 +270,11 @@ def _force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
 
 
 def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
-    """Remove fluid_sim.body and fluid_sim.medium; opt takes over the medium's lower fluid."""
+    """
+    Remove what models a fluid; opt takes over the medium's lower fluid.
+
+    A fluid_sim.thruster stays: it is the vehicle's drive.
+    """
     full = _compile(spec, path)
     config = native().plugin_config
     implicit = []
@@ -293,7 +297,9 @@ def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
             reference.name = ''
             reference.active = False
     for number, plugin in enumerate(list(spec.plugins)):
-        if number in implicit or plugin.plugin_name.startswith('fluid_sim.'):
+        name = plugin.plugin_name
+        fluid = name.startswith('fluid_sim.') and name != 'fluid_sim.thruster'
+        if number in implicit or fluid:
             spec.delete(plugin)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.scene_schema import NAME_PATTERN, VehicleFile
 
 
@@ -93,6 +94,12 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
     if joints is None:
         joints = _actuators(model, body_id, mujoco.mjtTrn.mjTRN_JOINT)
     thruster_ids = _actuator_ids(model, thrusters, where)
+    for actuator, identity in zip(thrusters, thruster_ids, strict=True):
+        if is_reaction_torque(model, int(identity)):
+            raise ConfigError(
+                f"{where}: thruster '{actuator}' is the reaction torque of a fluid_sim.thruster, "
+                'which takes no command; name the actuator of its thrust'
+            )
     joint_ids = _actuator_ids(model, joints, where)
     return Vehicle(
         name=name,
@@ -109,10 +116,14 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
 
 
 def _actuators(model: mujoco.MjModel, root: int, transmission: int) -> list[str]:
-    """Return the actuators that act on a body's subtree through one kind of transmission."""
+    """
+    Return the actuators that act on a body's subtree through one kind of transmission.
+
+    Without the reaction torques of fluid_sim.thruster: their rotors have a command already.
+    """
     found = []
     for i in range(model.nu):
-        if model.actuator_trntype[i] != transmission:
+        if model.actuator_trntype[i] != transmission or is_reaction_torque(model, i):
             continue
         target = model.actuator_trnid[i, 0]
         body = (
@@ -123,6 +134,16 @@ def _actuators(model: mujoco.MjModel, root: int, transmission: int) -> list[str]
         if _is_below(model, body, root):
             found.append(model.actuator(i).name)
     return found
+
+
+def is_reaction_torque(model: mujoco.MjModel, actuator: int) -> bool:
+    """Return whether an actuator is the torque of a fluid_sim.thruster, whose control is unread."""
+    instance = int(model.actuator_plugin[actuator])
+    return (
+        instance >= 0
+        and bool(native().plugin_config(model._address, instance, 'fluid_sim.thruster', 'curve'))
+        and not model.actuator_gear[actuator, :3].any()
+    )
 
 
 def _is_below(model: mujoco.MjModel, body: int, root: int) -> bool:

@@ -138,7 +138,11 @@ class StateTopics:
         self._add_joint_states(vehicle)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:
-        """Publish the joints below the base, then the thrusters with their force as effort."""
+        """
+        Publish the joints below the base, then the thrusters with their force as effort.
+
+        A fluid_sim.thruster also has its rotor's speed [rad/s] as velocity.
+        """
         model, data = self._simulation.model, self._simulation.observed
         joints = [j for j in range(model.njnt) if _is_single_joint(model, j, vehicle.body_id)]
         names = [model.joint(j).name or f'joint{j}' for j in joints] + list(vehicle.thrusters)
@@ -148,8 +152,18 @@ class StateTopics:
         numbers = np.zeros((3, len(names)))
         qpos_places, dof_places = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
         count = len(joints)
+        rotor, addresses = np.zeros(len(nat.THRUSTER_VALUES)), (model._address, data._address)
+        thruster_of, into = nat.native().thruster, rotor.ctypes.data
+        rotors = [
+            (count + i, int(actuator))
+            for i, actuator in enumerate(vehicle.thruster_ids)
+            if thruster_of(*addresses, int(actuator), into)
+        ]
 
         def prepare() -> None:
+            for place, actuator in rotors:
+                thruster_of(*addresses, actuator, into)
+                numbers[1, place] = rotor[0]
             numbers[0, :count] = data.qpos[qpos_places]
             numbers[1, :count] = data.qvel[dof_places]
             numbers[2, :count] = data.qfrc_actuator[dof_places]
