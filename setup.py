@@ -119,6 +119,7 @@ MAVLINK = ['pymavlink>=2.4.41,<3']
 RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
 TEST = [
+    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1',
     *CHARTS,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip

@@ -2,7 +2,8 @@
 The ``fluid_sim`` command.
 
 Each subcommand imports what it needs when it runs, so that ``fluid_sim --help`` is instant.
-Exit codes: 0, 1 (the simulation diverged, or the doctor found a fault), 2 (wrong input).
+Exit codes: 0, 1 (the simulation diverged, the doctor found a fault, or a log is damaged or not
+repeated), 2 (wrong input).
 """
 
 import argparse
@@ -12,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluid_sim_ros import __version__
+from fluid_sim_ros import __version__, cli_logs
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -91,6 +92,8 @@ def _build_parser() -> argparse.ArgumentParser:
     scenes = commands.add_parser('scenes', help='list the scenes')
     scenes.add_argument('--json', metavar='PATH', help=json_help)
     scenes.set_defaults(function=_scenes)
+
+    cli_logs.add_parsers(commands, _show, json_help)
 
     commands.add_parser(
         'demo', add_help=False, help='quadrotor in a gust: simulator and controller over ROS 2'

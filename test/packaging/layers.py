@@ -6,7 +6,7 @@ from pathlib import Path
 PACKAGE = 'fluid_sim_ros'
 LEAVES = ('ros', 'mavlink', 'recording', 'lab')
 # Read by people through a terminal: they may import anything, and nothing imports them.
-FRONT_ENDS = ('cli', 'doctor', 'headless')
+FRONT_ENDS = ('cli', 'cli_logs', 'doctor', 'headless')
 # May stand in any part.
 COMMON = ('errors', 'frames')
 ROS_MODULES = (
@@ -20,6 +20,7 @@ FOREIGN = {
     'control': ('mujoco', *ROS_MODULES),
     'core': ROS_MODULES,
     'lab': ROS_MODULES,
+    'recording': ROS_MODULES,
 }
 
 

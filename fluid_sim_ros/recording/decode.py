@@ -1,0 +1,216 @@
+"""
+Messages of one topic as columns of numbers, from any definition in the encoding ``ros2msg``.
+
+Messages of a topic rarely differ in more than their numbers, so the place of each number is found
+once per layout and then read from all messages at the same time.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.recording.description import LogError
+
+_SIZES = {
+    'bool': '?', 'byte': 'u1', 'char': 'u1', 'float32': 'f4', 'float64': 'f8', 'int8': 'i1',
+    'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2', 'int32': 'i4', 'uint32': 'u4', 'int64': 'i8',
+    'uint64': 'u8',
+}  # fmt: skip
+_HEADER_SIZE = 4
+_SEPARATOR = re.compile(r'^={10,}$', re.MULTILINE)
+_FIELD = re.compile(r'^([A-Za-z][\w/]*)(?:<=\d+)?(?:\[(<=)?(\d*)\])?\s+([A-Za-z]\w*)\s*(.*)$')
+
+
+@dataclass(frozen=True)
+class Field:
+    """A member: type, name, and its length where it is a fixed array, or -1 for a sequence."""
+
+    type: str
+    name: str
+    length: int | None
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a number (dtype) or a string (empty dtype) of a message stands."""
+
+    name: str
+    offset: int
+    dtype: str
+    size: int
+
+
+class Schema:
+    """The types of one definition; the first is the message itself."""
+
+    def __init__(self, definition: str) -> None:
+        self._types: dict[str, list[Field]] = {}
+        for number, part in enumerate(_SEPARATOR.split(definition)):
+            name, body = '', part
+            if number:
+                head, _, body = part.strip().partition('\n')
+                name = head.removeprefix('MSG:').strip().replace('/msg/', '/')
+            self._types[name] = [f for f in map(_field, body.splitlines()) if f]
+
+    def _members(self, kind: str, owner: str) -> tuple[str, list[Field]]:
+        kind = kind.replace('/msg/', '/')
+        package = owner.partition('/')[0]
+        for name in (kind, f'{package}/{kind}'):
+            if name in self._types:
+                return name, self._types[name]
+        for name, fields in self._types.items():  # a type of the message's own package
+            if name.rpartition('/')[2] == kind:
+                return name, fields
+        raise LogError(f"the definition lacks the type '{kind}'")
+
+    def layout(self, data: bytes) -> tuple[list[Place], list[int]]:
+        """
+        Return the places of a message's numbers and strings, and those of its length words.
+
+        Raises
+        ------
+        LogError
+            If the message does not fit its definition.
+
+        """
+        walk = _Walk(data)
+        self._walk(walk, '', '', '')
+        return walk.places, walk.lengths
+
+    def _walk(self, walk: '_Walk', kind: str, owner: str, prefix: str) -> None:
+        owner, fields = (kind, self._types['']) if not kind else self._members(kind, owner)
+        for field in fields:
+            name = f'{prefix}{field.name}'
+            if field.length is None:
+                self._item(walk, field.type, owner, name)
+                continue
+            count = walk.length() if field.length < 0 else field.length
+            if field.type in _SIZES and count:
+                walk.number(name, _SIZES[field.type], count)
+                continue
+            for i in range(count):
+                self._item(walk, field.type, owner, f'{name}[{i}]')
+
+    def _item(self, walk: '_Walk', kind: str, owner: str, name: str) -> None:
+        if kind in _SIZES:
+            walk.number(name, _SIZES[kind], None)
+        elif kind == 'string':
+            walk.string(name)
+        else:
+            self._walk(walk, kind, owner, f'{name}.')
+
+
+def _field(line: str) -> Field | None:
+    line = line.partition('#')[0].strip()
+    match = _FIELD.match(line)
+    if not match or match[5].startswith('='):
+        return None
+    kind, bounded, count, name = match[1], match[2], match[3], match[4]
+    if count is None:
+        return Field(kind, name, None)
+    return Field(kind, name, int(count) if count and not bounded else -1)
+
+
+class _Walk:
+    """Goes through one message, noting what stands where."""
+
+    def __init__(self, data: bytes) -> None:
+        if data[:2] != b'\x00\x01':
+            raise LogError('a message is not plain little-endian CDR')
+        self._data = data
+        self._at = _HEADER_SIZE
+        self.places: list[Place] = []
+        self.lengths: list[int] = []
+
+    def _take(self, size: int, alignment: int) -> int:
+        at = self._at + -(self._at - _HEADER_SIZE) % alignment
+        if at + size > len(self._data):
+            raise LogError('a message is shorter than its definition says')
+        self._at = at + size
+        return at
+
+    def length(self) -> int:
+        at = self._take(4, 4)
+        self.lengths.append(at)
+        count = int.from_bytes(self._data[at : at + 4], 'little')
+        if count > len(self._data):
+            raise LogError('a message is shorter than its definition says')
+        return count
+
+    def number(self, name: str, dtype: str, count: int | None) -> None:
+        width = np.dtype(dtype).itemsize
+        at = self._take(width * (count or 1), width)
+        if count is None:
+            self.places.append(Place(name, at, dtype, width))
+        for i in range(count or 0):
+            self.places.append(Place(f'{name}[{i}]', at + i * width, dtype, width))
+
+    def string(self, name: str) -> None:
+        size = self.length()
+        self.places.append(Place(name, self._take(size, 1), '', size))
+
+
+def fields(definition: str, data: bytes) -> dict[str, Any]:
+    """Return every number and string of one message by its dotted name."""
+    found: dict[str, Any] = {}
+    for place in Schema(definition).layout(data)[0]:
+        content = data[place.offset : place.offset + place.size]
+        if place.dtype:
+            found[place.name] = np.frombuffer(content, '<' + place.dtype)[0].item()
+        else:
+            found[place.name] = content.rstrip(b'\x00').decode(errors='replace')
+    return found
+
+
+def columns(definition: str, messages: Sequence[bytes]) -> dict[str, NDArray[Any]]:
+    """
+    Return one array per field, one value per message.
+
+    Fields that some messages lack (sequences of changing length) hold NaN there; strings are
+    object arrays.
+    """
+    schema, count = Schema(definition), len(messages)
+    result: dict[str, NDArray[Any]] = {}
+    left = list(range(count))
+    while left:
+        first = messages[left[0]]
+        places, lengths = schema.layout(first)
+        same = [i for i in left if len(messages[i]) == len(first)]
+        table = np.frombuffer(b''.join([messages[i] for i in same]), np.uint8)
+        table = table.reshape(len(same), len(first))
+        words = [at + byte for at in lengths for byte in range(4)]
+        alike = (table[:, words] == table[0, words]).all(axis=1)
+        rows, table = np.array(same)[alike], table[alike]
+        for place in places:
+            _fill(result, place, count, rows, table)
+        left = sorted(set(left) - set(rows.tolist()))
+    return result
+
+
+def _fill(
+    result: dict[str, NDArray[Any]],
+    place: Place,
+    count: int,
+    rows: NDArray[np.int64],
+    table: NDArray[np.uint8],
+) -> None:
+    """Put one field of the messages of one layout in its column."""
+    cells = np.ascontiguousarray(table[:, place.offset : place.offset + place.size])
+    whole = len(rows) == count
+    values: NDArray[Any]
+    if place.dtype:
+        values = cells.view('<' + place.dtype).reshape(len(rows))
+    else:
+        texts = [bytes(row).rstrip(b'\x00').decode(errors='replace') for row in cells]
+        values = np.array(texts, dtype=object)
+    if whole:
+        result[place.name] = values
+        return
+    if place.name not in result:
+        missing = np.nan if place.dtype else ''
+        result[place.name] = np.full(count, missing, object if not place.dtype else float)
+    result[place.name][rows] = values

@@ -1,0 +1,149 @@
+"""What is in a log, whether it is sound, and a clean copy of one that is not."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mcap.writer import CompressionType, Writer
+
+from fluid_sim_ros.recording import rosbag2
+from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.recording.reader import Log, open_log
+from fluid_sim_ros.recording.writer import CHUNK_SIZE
+
+
+@dataclass
+class Count:
+    """Messages of one topic, with their first and last simulated time [ns]."""
+
+    messages: int = 0
+    bytes: int = 0
+    first_ns: int = 0
+    last_ns: int = 0
+
+
+@dataclass
+class Contents:
+    """Messages per topic, and of the whole log."""
+
+    topics: dict[str, Count] = field(default_factory=dict)
+    total: Count = field(default_factory=Count)
+
+
+def count(log: Log) -> Contents:
+    """Go through a log once and count."""
+    contents = Contents({topic.name: Count() for topic in log.topics.values()})
+    total = contents.total
+    for message in log.messages():
+        for entry in (contents.topics[message.topic], total):
+            if not entry.messages:
+                entry.first_ns = entry.last_ns = message.log_ns
+            entry.first_ns = min(entry.first_ns, message.log_ns)
+            entry.last_ns = max(entry.last_ns, message.log_ns)
+            entry.messages += 1
+            entry.bytes += len(message.data)
+    return contents
+
+
+def info(path: str | Path) -> dict[str, Any]:
+    """
+    Return what ``fluid_sim info`` shows.
+
+    Raises
+    ------
+    LogError
+        If it is no log at all.
+
+    """
+    log = open_log(path)
+    contents = count(log)
+    total = contents.total
+    result: dict[str, Any] = {
+        'path': str(log.path),
+        'bytes': log.size,
+        'complete': log.complete,
+        'faults': log.faults,
+        'written_by': log.library,
+        'messages': total.messages,
+        'begin_s': total.first_ns * 1e-9,
+        'end_s': total.last_ns * 1e-9,
+        'topics': {
+            topic.name: {
+                'type': topic.type,
+                'messages': contents.topics[topic.name].messages,
+                'rate_hz': _rate(contents.topics[topic.name]),
+            }
+            for topic in log.topics.values()
+        },
+    }
+    try:
+        run = log.description().run
+    except LogError as error:
+        return result | {'run': None, 'run_fault': str(error)}
+    named = ('seed', 'timestep', 'integrator', 'fluid', 'namespace', 'versions')
+    return result | {'run': {'scene': run['scene']['name'], **{k: run[k] for k in named}}}
+
+
+def _rate(entry: Count) -> float | None:
+    seconds = (entry.last_ns - entry.first_ns) * 1e-9
+    return round((entry.messages - 1) / seconds, 3) if seconds > 0 else None
+
+
+def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[str, Any]:
+    """
+    Write all that is sound in a log to a new file; return its size and what was lost.
+
+    ``out`` without ``.mcap`` becomes a folder that rosbag2 takes.
+
+    Raises
+    ------
+    LogError
+        If there is nothing to read, or ``out`` exists already.
+
+    """
+    log = open_log(path)
+    target = out if out.suffix == '.mcap' else out / f'{out.name}_0.mcap'
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        stream = target.open('xb')
+    except OSError as error:
+        raise LogError(f'{target}: {error.strerror}') from None
+    with stream:
+        writer = Writer(
+            stream, chunk_size, CompressionType.ZSTD, enable_crcs=True, enable_data_crcs=True
+        )
+        writer.start(profile='ros2', library=log.library)
+        for name, data in log.attachments.items():
+            kind = 'application/json' if name.endswith('.json') else 'application/octet-stream'
+            writer.add_attachment(0, 0, name, kind, data)
+        ids, schemas = {}, {}
+        for topic in log.topics.values():
+            if topic.type not in schemas:
+                text = topic.definition.encode()
+                schemas[topic.type] = writer.register_schema(topic.type, 'ros2msg', text)
+            schema = schemas[topic.type]
+            ids[topic.name] = writer.register_channel(topic.name, 'cdr', schema, topic.metadata)
+        contents = Contents({name: Count() for name in ids})
+        for message in log.messages():
+            writer.add_message(
+                ids[message.topic], message.log_ns, message.data, message.publish_ns, message.step
+            )
+            contents.topics[message.topic].messages += 1
+            if not contents.total.messages:
+                contents.total.first_ns = message.log_ns
+            contents.total.messages += 1
+            contents.total.last_ns = message.log_ns
+        writer.finish()
+    if out != target:
+        topics = list(log.topics.values())
+        rosbag2.write_metadata(
+            target,
+            [{'topic': t.name, 'type': t.type, 'metadata': t.metadata} for t in topics],
+            [contents.topics[t.name].messages for t in topics],
+            contents.total.first_ns,
+            contents.total.last_ns,
+        )
+    return {
+        'path': str(target), 'bytes': target.stat().st_size,
+        'messages': contents.total.messages, 'lost': log.faults,
+    }  # fmt: skip
