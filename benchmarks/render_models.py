@@ -67,6 +67,10 @@ SHOTS = {
     'fly_wing': Shot(0.301, gait=('fly', BEAT.angles)),
     'quadrotor': Shot(0.0),
     'rov': Shot(0.0),
+    'bluerov2': Shot(0.0),
+    'bluerov2_heavy': Shot(0.0),
+    'x500': Shot(0.0),
+    'crazyflie': Shot(0.0),
 }
 
 

@@ -273,7 +273,8 @@ def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
     """
     Remove what models a fluid; opt takes over the medium's lower fluid.
 
-    A fluid_sim.thruster stays: it is the vehicle's drive.
+    A fluid_sim.thruster stays: it is the vehicle's drive (one that goes with the density of the
+    fluid gives nothing where there is none).
     """
     full = _compile(spec, path)
     config = native().plugin_config

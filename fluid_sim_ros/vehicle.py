@@ -137,7 +137,7 @@ def _actuators(model: mujoco.MjModel, root: int, transmission: int) -> list[str]
 
 
 def is_reaction_torque(model: mujoco.MjModel, actuator: int) -> bool:
-    """Return whether an actuator is the torque of a fluid_sim.thruster, whose control is unread."""
+    """Return whether an actuator is the torque of a fluid_sim.thruster; its control is unread."""
     instance = int(model.actuator_plugin[actuator])
     return (
         instance >= 0

@@ -11,7 +11,10 @@ from fluid_sim_ros.control.gait import JointWave, travelling_wave, wing_beat
 from fluid_sim_ros.plugins.native import native
 
 MODELS = Path(__file__).parents[2] / 'models'
-OWN = ('sphere', 'ellipsoid', 'falling_card', 'swimmer', 'fly_wing', 'quadrotor', 'rov')
+OWN = (
+    'sphere', 'ellipsoid', 'falling_card', 'swimmer', 'fly_wing', 'quadrotor', 'rov',
+    'bluerov2', 'bluerov2_heavy', 'x500', 'crazyflie',
+)  # fmt: skip
 
 
 def load(name: str) -> tuple[mujoco.MjModel, mujoco.MjData]:

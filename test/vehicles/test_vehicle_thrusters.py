@@ -42,7 +42,7 @@ def test_naming_a_reaction_torque_as_thruster_is_refused(model):
     model.write_text(model.read_text().replace(torque, f'name="twin" {torque}'))
     scene = model.with_name('scene.yaml')
     scene.write_text('model: rotor.xml\nvehicles: {b: {body: hull, thrusters: [thrust, twin]}}')
-    with pytest.raises(ConfigError, match="'twin' is the reaction torque of a fluid_sim.thruster"):
+    with pytest.raises(ConfigError, match="'twin' is the reaction torque of a fluid_sim"):
         Scene.load(scene).compile()
 
 
