@@ -21,7 +21,9 @@ bool IsNamed(const mjModel* m, int instance, const char* name) {
 // First instance that takes part in the assembly, or -1.
 int FirstInstance(const mjModel* m) {
   for (int i = 0; i < m->nplugin; ++i) {
-    if (IsNamed(m, i, "fluid_sim.body") || IsNamed(m, i, "fluid_sim.medium")) return i;
+    for (const char* name : {"fluid_sim.body", "fluid_sim.medium", "fluid_sim.foil"}) {
+      if (IsNamed(m, i, name)) return i;
+    }
   }
   return -1;
 }
@@ -51,7 +53,10 @@ std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
     if (!ReadBody(m, instance, body, assembly->medium, &fluid)) return nullptr;
     assembly->bodies.push_back(std::move(fluid));
   }
-  if (!CheckOptions(m, owner, assembly->bodies)) return nullptr;
+  if (!ReadFoils(m, assembly->medium, &assembly->foils) ||
+      !CheckOptions(m, owner, assembly->bodies)) {
+    return nullptr;
+  }
   return assembly;
 }
 
@@ -97,6 +102,7 @@ void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
       AddChainInertia(m, d, body, motion, forces.inertia);
     }
   }
+  for (const Foil& foil : assembly.foils) ApplyFoil(m, d, assembly.medium, foil);
   if (any) mj_factorM(m, d);
 }
 
@@ -190,7 +196,14 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
                     bool acceleration, Wrench terms[kTermCount]) {
   AddRotorTerms(m, d, body, point_w, terms);
   const Assembly* assembly = FindAssembly(m, d);
-  const BodyFluid* fluid = assembly ? FindBody(*assembly, body) : nullptr;
+  if (!assembly) return;
+  for (const Foil& foil : assembly->foils) {
+    if (foil.body != body) continue;
+    const Wrench load = EvaluateFoil(m, d, assembly->medium, foil, point_w);
+    mju_addTo3(terms[kFoil].force, load.force);
+    mju_addTo3(terms[kFoil].torque, load.torque);
+  }
+  const BodyFluid* fluid = FindBody(*assembly, body);
   if (!fluid) return;
   const Motion motion = BodyMotion(m, d, *fluid);
   BodyForces forces;
@@ -228,6 +241,8 @@ void RegisterAssembly() {
            [](const mjModel*, int) { return 0; });
   Register("fluid_sim.medium", kMediumAttributes, kMediumAttributeCount,
            [](const mjModel*, int) { return static_cast<int>(kMediumState); });
+  Register("fluid_sim.foil", kFoilAttributes, kFoilAttributeCount,
+           [](const mjModel*, int) { return 0; });
 }
 
 }  // namespace fluid_sim

@@ -1,4 +1,4 @@
-// One assembly per evaluation: medium, then every body, in a fixed order.
+// One assembly per evaluation: medium, then every body, then every foil, in a fixed order.
 //
 // MuJoCo calls each plugin instance on its own. The first passive fluid_sim instance (lowest id)
 // does the work of all, because the rigid-body inertia must be restored once before the added
@@ -13,6 +13,7 @@
 
 #include "body.h"
 #include "fluid_terms.h"
+#include "foil.h"
 #include "medium.h"
 
 namespace fluid_sim {
@@ -22,6 +23,7 @@ struct Assembly {
   int owner = -1;  // instance that evaluates
   Medium medium;
   std::vector<BodyFluid> bodies;  // ascending body id
+  std::vector<Foil> foils;        // by instance and site
 };
 
 // The assembly of a data, or null for a model without fluid_sim plugins.
@@ -39,7 +41,7 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
 // Velocity of the fluid that a world point lies in [m/s].
 void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3], mjtNum velocity[3]);
 
-// Register fluid_sim.body and fluid_sim.medium.
+// Register fluid_sim.body, fluid_sim.medium and fluid_sim.foil.
 void RegisterAssembly();
 
 }  // namespace fluid_sim

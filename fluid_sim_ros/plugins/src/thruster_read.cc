@@ -114,7 +114,7 @@ bool ReadLag(const mjModel* m, const Config& config, Thruster* out) {
   return true;
 }
 
-bool ReadRotor(const Config& config, Thruster* out) {
+bool ReadRotor(const mjModel* m, const Config& config, Thruster* out) {
   const int spin = config.Word("spin", {"ccw", "cw"});
   if (spin < 0) return false;
   out->spin = spin ? -1 : 1;
@@ -133,6 +133,12 @@ bool ReadRotor(const Config& config, Thruster* out) {
     return config.Fail(
         "the shaft torque has no actuator; add a second one with the same instance and site and "
         "gear=\"0 0 0 0 0 1\" (the thrust axis as torque)");
+  }
+  const int passive = mjDSBL_SPRING | mjDSBL_DAMPER;
+  if (out->passive() && (m->opt.disableflags & passive) == passive) {
+    return config.Fail(
+        "flag spring and damper are both disabled, which disables rotor_drag, "
+        "rolling_moment and rotor_inertia too; enable one of them");
   }
   if (!turns && out->torque >= 0) {
     return config.Fail(
@@ -232,7 +238,7 @@ bool ReadThruster(const mjModel* m, int instance, Thruster* out) {
   out->command = static_cast<Command>(command);
   if (!ReadCurve(config, out)) return false;
   if (out->curve.kind != Curve::kTable && !ReadPulse(config, out)) return false;
-  return ReadRotor(config, out) && ReadGround(config, out) && ReadFluid(m, config, out) &&
+  return ReadRotor(m, config, out) && ReadGround(config, out) && ReadFluid(m, config, out) &&
          ReadLag(m, config, out);
 }
 
