@@ -10,18 +10,8 @@ from typing import Any
 import matplotlib as mpl
 import mujoco
 import numpy as np
-from plugin_common import (
-    RESULTS,
-    Array,
-    arguments,
-    body_plugin,
-    ellipsoid,
-    free_body,
-    load,
-    text,
-    world,
-    write,
-)
+from common import RESULTS, arguments, write
+from plugin_common import Array, body_plugin, ellipsoid, free_body, load, text, world
 from scipy.optimize import brentq
 
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume

@@ -1,11 +1,6 @@
 """What the plugin benchmarks share: models with fluid_sim plugins, native calls, results."""
 
-import argparse
-import datetime
-import json
-import subprocess
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -15,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from fluid_sim_ros.plugins.native import native
 
 Array = NDArray[np.float64]
-RESULTS = Path(__file__).parent / 'results'
 FIRST_ORDER = ('Euler', 'implicit', 'implicitfast', 'discrete')
 
 
@@ -110,29 +104,3 @@ def set_medium(
     ]
     addresses = [0 if vector is None else vector.ctypes.data for vector in vectors]
     return bool(native().set_medium(model._address, data._address, *addresses))
-
-
-def arguments(doc: str, name: str) -> argparse.Namespace:
-    """Return ``json`` (path of the result) and ``quick`` from the command line."""
-    parser = argparse.ArgumentParser(description=doc.strip().splitlines()[0])
-    parser.add_argument('--json', type=Path, default=RESULTS / f'{name}.json')
-    parser.add_argument('--quick', action='store_true', help='a fraction of the volume')
-    return parser.parse_args()
-
-
-def write(path: Path, result: Mapping[str, Any]) -> None:
-    """Write a result with what it was measured with."""
-    root = Path(__file__).parents[1]
-    head = subprocess.run(
-        ['git', 'rev-parse', '--short=12', 'HEAD'],
-        cwd=root, capture_output=True, text=True, check=False,
-    ).stdout.strip()  # fmt: skip
-    head_and_more = {
-        'commit': head or 'unknown',
-        'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
-        'mujoco': mujoco.__version__,
-        **result,
-    }
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(head_and_more, indent=1) + '\n', encoding='utf-8')
-    print(f'wrote {path}')

@@ -13,16 +13,8 @@ from typing import Any
 import matplotlib as mpl
 import mujoco
 import numpy as np
-from plugin_common import (
-    RESULTS,
-    arguments,
-    body_plugin,
-    ellipsoid,
-    free_body,
-    load,
-    world,
-    write,
-)
+from common import RESULTS, arguments, write
+from plugin_common import body_plugin, ellipsoid, free_body, load, world
 
 from fluid_sim_ros.plugins.native import ROW_WIDTH, native
 

@@ -14,6 +14,7 @@ from typing import Any
 import matplotlib as mpl
 import mujoco
 import numpy as np
+from common import RESULTS, arguments, write
 from foil_common import (
     AEROSONDE,
     AIR,
@@ -24,7 +25,7 @@ from foil_common import (
     lift_drag,
     wing_params,
 )
-from plugin_common import RESULTS, Array, arguments, load, write
+from plugin_common import Array, load
 
 from fluid_sim_ros.physics.foil import wing_coefficients
 

@@ -14,19 +14,8 @@ from typing import Any, NamedTuple
 import matplotlib as mpl
 import mujoco
 import numpy as np
-from plugin_common import (
-    FIRST_ORDER,
-    RESULTS,
-    Array,
-    arguments,
-    body_plugin,
-    ellipsoid,
-    free_body,
-    load,
-    text,
-    world,
-    write,
-)
+from common import RESULTS, arguments, write
+from plugin_common import FIRST_ORDER, Array, body_plugin, ellipsoid, free_body, load, text, world
 from scipy.integrate import solve_ivp
 
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass

@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import mujoco
-from plugin_common import arguments, write
+from common import arguments, write
 
 ROOT = Path(__file__).parents[1]
 FLAGS = (

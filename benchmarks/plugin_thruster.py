@@ -14,7 +14,8 @@ from typing import Any
 import matplotlib as mpl
 import mujoco
 import numpy as np
-from plugin_common import RESULTS, Array, arguments, config, load, write
+from common import RESULTS, arguments, write
+from plugin_common import Array, config, load
 from scipy.integrate import solve_ivp
 from thruster_common import AEROSONDE, T200, X500, read, rotor_world, settle
 

@@ -8,36 +8,27 @@ which state it belongs to.
 """
 
 import math
-import os
-import signal
 import struct
-import sys
-import threading
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
 
-import rclpy
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
-from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
-from fluid_sim_ros.errors import CommandError, FluidSimError
+from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.inputs import PolledGroup
-from fluid_sim_ros.ros.parameters import check_domain, check_parameter_files
 from fluid_sim_ros.ros.states import State, read_odometry
 from fluid_sim_ros.ros.vehicle_plant import plant_of
 
@@ -159,6 +150,9 @@ class ControllerNode(Node, ABC):
             if got := waypoint.take_message(PoseStamped, True):
                 self._on_waypoint(got[0])
 
+    def close(self) -> None:
+        """Do nothing: a controller holds nothing that must be closed."""
+
     def end(self) -> None:
         """Have ``run`` return; safe in a signal handler and in any thread."""
         self._ending = True
@@ -210,59 +204,3 @@ class ControllerNode(Node, ABC):
     def _take(self, changes: list[Parameter]) -> None:
         if any(change.name in self._table for change in changes):
             self.read_live()
-
-
-def run_controller(
-    create: Callable[[], ControllerNode], name: str, args: Sequence[str] | None
-) -> int:
-    """Run a controller until SIGINT or SIGTERM; returns the process's exit code."""
-    arguments = list(sys.argv if args is None else args)
-    try:
-        check_domain()
-        check_parameter_files(arguments)
-        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    except FluidSimError as error:
-        return _fail(name, error)
-    node = None
-    try:
-        node = create()
-        _spin(node)
-    except FluidSimError as error:
-        return _fail(name, error)
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.shutdown()
-    return 0
-
-
-def _spin(node: ControllerNode) -> None:
-    """Run node and executor; in the end stop both in an order that leaves no thread behind."""
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-
-    def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
-
-    def on_signal(number: int, frame: Any) -> None:
-        if node._ending:
-            os._exit(128 + number)  # the second signal ends the process
-        node.end()
-
-    signal.signal(signal.SIGINT, on_signal)
-    signal.signal(signal.SIGTERM, on_signal)
-    thread = threading.Thread(target=spin, name='executor')
-    thread.start()
-    try:
-        node.run()
-    finally:
-        executor.shutdown()
-        thread.join()
-
-
-def _fail(name: str, error: FluidSimError) -> int:
-    sys.stderr.write(f'{name}: error: {error}\n')
-    return 2

@@ -5,26 +5,22 @@ The main thread steps, publishes and takes commands; a second thread runs the ex
 parameters, lifecycle) and hands its work over as requests that are served between steps.
 """
 
-import os
-import signal
 import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
-import rclpy
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.requests import RequestQueue
 from fluid_sim_ros.ros import parameters
 from fluid_sim_ros.ros.diagnostics import GraphMonitor
+from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.session import Session
 
 Result = TypeVar('Result')
@@ -218,73 +214,17 @@ class FluidSimNode(LifecycleNode):
             self._session.change(values)
 
 
-def _install_signal_handlers(node: FluidSimNode) -> None:
-    """End the loop at the first SIGINT or SIGTERM, the process at the second."""
-
-    def on_signal(number: int, frame: Any) -> None:
-        if node._ending:
-            os._exit(128 + number)
-        node.end()
-
-    signal.signal(signal.SIGINT, on_signal)
-    signal.signal(signal.SIGTERM, on_signal)
-
-
 def _autostart(node: FluidSimNode) -> None:
+    if not node.get_parameter('autostart').value:
+        return
     if node.trigger_configure() != TransitionCallbackReturn.SUCCESS:
         raise FluidSimError(node.configure_error or 'configuring failed')
     node.trigger_activate()
 
 
-def _run(node: FluidSimNode) -> None:
-    """Run node and executor; in the end stop both in an order that leaves no thread behind."""
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-
-    def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
-
-    thread = threading.Thread(target=spin, name='executor')
-    _install_signal_handlers(node)
-    if node.get_parameter('autostart').value:
-        _autostart(node)
-    thread.start()
-    try:
-        node.run()
-    finally:
-        node.close()
-        executor.shutdown()
-        thread.join()
-
-
 def main(args: Sequence[str] | None = None) -> int:
     """Run the node until it is ended; returns the process's exit code."""
-    arguments = list(sys.argv if args is None else args)
-    try:
-        parameters.check_domain()
-        parameters.check_parameter_files(arguments)
-        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    except FluidSimError as error:
-        return _fail(error)
-    node = None
-    try:
-        node = FluidSimNode()
-        _run(node)
-    except FluidSimError as error:
-        return _fail(error)
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.shutdown()
-    return 0
-
-
-def _fail(error: FluidSimError) -> int:
-    sys.stderr.write(f'{NODE_NAME}: error: {error}\n')
-    return 2
+    return run_process(NODE_NAME, FluidSimNode, args, _autostart)
 
 
 if __name__ == '__main__':

@@ -7,7 +7,8 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
 from fluid_sim_ros.control.waypoints import Waypoint
 from fluid_sim_ros.ros import controller_parameters as parameters
-from fluid_sim_ros.ros.controller_base import ControllerNode, run_controller
+from fluid_sim_ros.ros.controller_base import ControllerNode
+from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'quad_controller'
@@ -41,7 +42,7 @@ class QuadController(ControllerNode):
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the controller; returns the process's exit code."""
-    return run_controller(QuadController, NODE_NAME, args)
+    return run_process(NODE_NAME, QuadController, args)
 
 
 if __name__ == '__main__':

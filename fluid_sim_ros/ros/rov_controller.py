@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
 from fluid_sim_ros.ros import controller_parameters as parameters
-from fluid_sim_ros.ros.controller_base import ControllerNode, run_controller
+from fluid_sim_ros.ros.controller_base import ControllerNode
 from fluid_sim_ros.ros.controller_parameters import Declared
+from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'rov_controller'
@@ -71,7 +72,7 @@ class RovController(ControllerNode):
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the controller; returns the process's exit code."""
-    return run_controller(RovController, NODE_NAME, args)
+    return run_process(NODE_NAME, RovController, args)
 
 
 if __name__ == '__main__':

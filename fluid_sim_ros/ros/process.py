@@ -1,0 +1,119 @@
+"""The life of a node's process: set-up, signals, executor thread, and an orderly end."""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.signals import SignalHandlerOptions
+
+from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.ros.parameters import check_domain, check_parameter_files
+
+
+class LoopingNode(Protocol):
+    """An rclpy node whose main thread runs a loop of its own."""
+
+    def run(self) -> None:
+        """Run the loop until ``end``."""
+
+    def end(self) -> None:
+        """Have ``run`` return; safe in a signal handler."""
+
+    def close(self) -> None:
+        """Refuse further work; called after ``run``, before the executor stops."""
+
+    def destroy_node(self) -> None:
+        """Remove the node."""
+
+
+def run_process(
+    name: str,
+    create: Callable[[], LoopingNode],
+    args: Sequence[str] | None,
+    start: Callable[[Any], None] = lambda node: None,
+) -> int:
+    """
+    Run a node until it ends, SIGINT or SIGTERM; a second signal ends the process at once.
+
+    Parameters
+    ----------
+    name
+        What error lines start with.
+    create
+        Makes the node.
+    args
+        Command line; None means that of the process.
+    start
+        Called with the node before its executor starts (lifecycle autostart).
+
+    Returns
+    -------
+    int
+        Exit code: 0, or 2 after one line about a FluidSimError.
+
+    """
+    arguments = list(sys.argv if args is None else args)
+    try:
+        check_domain()
+        check_parameter_files(arguments)
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    except FluidSimError as error:
+        return _fail(name, error)
+    node = None
+    try:
+        node = create()
+        _spin(node, start)
+    except FluidSimError as error:
+        return _fail(name, error)
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.shutdown()
+    return 0
+
+
+def _spin(node: Any, start: Callable[[Any], None]) -> None:
+    """Run node and executor; in the end stop both in an order that leaves no thread behind."""
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    _end_on_signal(node)
+    start(node)
+    thread = threading.Thread(target=spin, name='executor')
+    thread.start()
+    try:
+        node.run()
+    finally:
+        node.close()
+        executor.shutdown()
+        thread.join()
+
+
+def _end_on_signal(node: LoopingNode) -> None:
+    ending = False
+
+    def on_signal(number: int, frame: Any) -> None:
+        nonlocal ending
+        if ending:
+            os._exit(128 + number)
+        ending = True
+        node.end()
+
+    signal.signal(signal.SIGINT, on_signal)
+    signal.signal(signal.SIGTERM, on_signal)
+
+
+def _fail(name: str, error: FluidSimError) -> int:
+    sys.stderr.write(f'{name}: error: {error}\n')
+    return 2
