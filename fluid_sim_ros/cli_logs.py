@@ -2,10 +2,14 @@
 
 import argparse
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.errors import MissingExtraError
+from fluid_sim_ros.errors import ConfigError, MissingExtraError
+
+if TYPE_CHECKING:
+    from fluid_sim_ros.recording.reader import Log
 
 #: Shows a table, or writes a result as JSON: (path or None, table, result).
 Show = Callable[[str | None, Any, object], None]
@@ -26,6 +30,22 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
     add('info', 'what is in a log, and whether it is sound', _info)
     repair = add('repair', 'write all that is sound in a damaged log to a new one', _repair)
     repair.add_argument('out', metavar='OUT', type=Path, help='.mcap file, or a folder: a bag')
+
+    replay = add('replay', 'publish a log on ROS topics, or fly it again', _replay)
+    replay.add_argument(
+        '--resimulate', action='store_true',
+        help='fly its commands again and compare every state (exit code 1: a difference)',
+    )  # fmt: skip
+    replay.add_argument(
+        '--tolerance', type=float, default=0.0, metavar='T',
+        help='relative difference allowed with --resimulate (default 0: the same bits)',
+    )  # fmt: skip
+    replay.add_argument(
+        '--with', action='append', default=[], metavar='KEY=VALUE', dest='changes',
+        help='fly it again with a change, and draw both: integrator, timestep, fluid, wind, '
+        'current (X,Y,Z), seed',
+    )  # fmt: skip
+    replay.add_argument('--out', metavar='PNG', type=Path, help='where --with draws both flights')
 
 
 def _needing_mcap(
@@ -79,4 +99,69 @@ def _repair(arguments: argparse.Namespace, show: Show) -> int:
     lost = ''.join(f'\nlost: {line}' for line in result['lost'])
     text = f'{result["path"]}: {result["messages"]} messages, {result["bytes"]} bytes{lost}'
     show(arguments.json, escape(text), result)
+    return 0
+
+
+def _replay(arguments: argparse.Namespace, show: Show) -> int:
+    from fluid_sim_ros.recording.reader import open_log
+
+    log = open_log(arguments.log)
+    if arguments.changes:
+        return _what_if(log, arguments, show)
+    if arguments.resimulate:
+        return _resimulate(log, arguments, show)
+    raise ConfigError('replay: say --resimulate or --with KEY=VALUE')
+
+
+def _resimulate(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.resimulate import resimulate
+
+    if not arguments.tolerance >= 0:
+        raise ConfigError(f'--tolerance {arguments.tolerance:g}: must be 0 or more')
+    outcome = resimulate(log, arguments.tolerance)
+    different = outcome.difference
+    lines = [
+        f'{outcome.commands} commands fed in, {outcome.compared} states compared',
+        *(f'note: {note}' for note in outcome.notes),
+    ]
+    if different is not None:
+        lines.append(f'first difference: {different}')
+    elif outcome.largest:
+        lines.append(f'largest difference {max(outcome.largest.values()):.3g}, as tolerated')
+    else:
+        lines.append('every state is the same to the last bit')
+    result = {
+        'log': str(log.path),
+        'commands': outcome.commands,
+        'compared': outcome.compared,
+        'identical': not outcome.largest,
+        'difference': None if different is None else asdict(different),
+        'largest': {name: _finite(value) for name, value in outcome.largest.items()},
+        'notes': outcome.notes,
+    }
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return 0 if different is None and outcome.compared else DAMAGED
+
+
+def _finite(value: float) -> float | None:
+    return value if value < float('inf') else None
+
+
+def _what_if(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.what_if import compare_flights
+
+    out = arguments.out or log.path.with_name(f'{log.path.stem}_what_if.png')
+    result = compare_flights(log, arguments.changes, out)
+    lines = [
+        f'{name}: up to {apart["largest_apart_m"]:.4g} m apart, at '
+        f'{apart["largest_apart_at_s"]:.2f} s; {apart["apart_at_end_m"]:.4g} m at the end'
+        for name, apart in result['differences'].items()
+    ]
+    lines += [f'note: {note}' for note in result['notes']]
+    lines.append(f'Plots: {", ".join(result["plots"])}')
+    show(arguments.json, escape('\n'.join(lines)), result)
     return 0

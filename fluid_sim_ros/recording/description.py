@@ -94,17 +94,21 @@ class RunDescription:
         scene: Scene = _SCENE.validate_python({**stated, 'model_path': path})
         return scene
 
-    def restore(self, simulation: Simulation) -> None:
-        """Bring a new simulation of the scene to the state at the log's begin."""
-        streams = self.run['streams']
-        saved = replace(
-            simulation.save_state(),
-            engine=np.frombuffer(self.state, '<f8').copy(),
-            streams=SavedStreams(
-                np.array(streams['wind']), np.array(streams['current']), streams['enabled']
-            ),
+    def restore(self, simulation: Simulation, changed: bool = False) -> None:
+        """
+        Bring a new simulation of the scene to the state at the log's begin.
+
+        A ``changed`` simulation whose state has another size (such as without plugins) begins at
+        the scene's keyframe instead.
+        """
+        streams, saved = self.run['streams'], simulation.save_state()
+        engine = np.frombuffer(self.state, '<f8').copy()
+        if changed and engine.shape != saved.engine.shape:
+            engine = saved.engine
+        commanded = SavedStreams(
+            np.array(streams['wind']), np.array(streams['current']), streams['enabled']
         )
-        simulation.load_state(saved)
+        simulation.load_state(replace(saved, engine=engine, streams=commanded))
 
 
 def describe(

@@ -1,0 +1,144 @@
+"""What the pictures of a log are drawn from: each vehicle's states as arrays."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.recording.decode import columns
+from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.recording.reader import Log
+
+Array = NDArray[np.float64]
+
+_ODOMETRY, _WRENCH = 'nav_msgs/msg/Odometry', 'geometry_msgs/msg/WrenchStamped'
+
+
+@dataclass
+class Track:
+    """
+    One vehicle's part of a log.
+
+    Attributes
+    ----------
+    name
+        Vehicle name, its namespace included.
+    times
+        Of the odometry [s], shape (n,).
+    position_w, velocity_b, omega_b
+        [m], [m/s] and [rad/s], shape (n, 3).
+    quat_wb_wxyz
+        Shape (n, 4).
+    wrenches
+        Term -> times [s], force [N] and torque [N m] side by side, shape (m, 7).
+    commands
+        What was commanded: label -> times [s] and values, shape (k, 1 + values).
+
+    """
+
+    name: str
+    times: Array
+    position_w: Array
+    quat_wb_wxyz: Array
+    velocity_b: Array
+    omega_b: Array
+    wrenches: dict[str, Array] = field(default_factory=dict)
+    commands: dict[str, Array] = field(default_factory=dict)
+
+    @property
+    def euler(self) -> Array:
+        """Roll, pitch and yaw (z-y-x order, FLU against ENU) [rad], shape (n, 3)."""
+        w, x, y, z = self.quat_wb_wxyz.T
+        roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
+        yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+        return np.column_stack([np.unwrap(roll), pitch, np.unwrap(yaw)])
+
+
+@dataclass
+class Tracks:
+    """Every vehicle of a log, and how fast simulated time went by: (time [s], factor)."""
+
+    vehicles: list[Track]
+    real_time_factor: Array
+
+
+def track_of(name: str, times: Array, definition: str, messages: Sequence[bytes]) -> Track:
+    """Return a track from odometry messages."""
+    table = columns(definition, messages)
+
+    def pick(prefix: str, parts: str) -> Array:
+        return np.column_stack([table[f'{prefix}.{part}'] for part in parts])
+
+    return Track(
+        name, times, pick('pose.pose.position', 'xyz'), pick('pose.pose.orientation', 'wxyz'),
+        pick('twist.twist.linear', 'xyz'), pick('twist.twist.angular', 'xyz'),
+    )  # fmt: skip
+
+
+def read_tracks(log: Log) -> Tracks:
+    """
+    Return what a log says of its vehicles.
+
+    Raises
+    ------
+    LogError
+        If it holds no odometry.
+
+    """
+    times: dict[str, list[int]] = {topic.name: [] for topic in log.topics.values()}
+    walls: dict[str, list[int]] = {topic.name: [] for topic in log.topics.values()}
+    data: dict[str, list[bytes]] = {topic.name: [] for topic in log.topics.values()}
+    for message in log.messages():
+        times[message.topic].append(message.log_ns)
+        walls[message.topic].append(message.publish_ns)
+        data[message.topic].append(message.data)
+    vehicles, factor = [], np.empty((0, 2))
+    for topic in log.topics.values():
+        if topic.type != _ODOMETRY or not data[topic.name]:
+            continue
+        name = topic.name.strip('/').rpartition('/')[0]
+        seconds = np.array(times[topic.name]) * 1e-9
+        track = track_of(name, seconds, topic.definition, data[topic.name])
+        _add_rest(track, log, times, data)
+        vehicles.append(track)
+        factor = _factor(seconds, np.array(walls[topic.name]) * 1e-9)
+    if not vehicles:
+        raise LogError(f'{log.path}: no odometry in it, nothing to draw')
+    return Tracks(vehicles, factor)
+
+
+def _add_rest(
+    track: Track, log: Log, times: Mapping[str, list[int]], data: Mapping[str, list[bytes]]
+) -> None:
+    """Add the wrenches and commands of a vehicle."""
+    for topic in log.topics.values():
+        head, _, tail = topic.name.strip('/').partition(f'{track.name}/')
+        if head or not data[topic.name]:
+            continue
+        seconds = np.array(times[topic.name]) * 1e-9
+        table = columns(topic.definition, data[topic.name])
+        numbers = [
+            name for name, values in table.items()
+            if values.dtype.kind == 'f' and name.startswith(('wrench.', 'data', 'effort', 'pos'))
+        ]  # fmt: skip
+        if not numbers:
+            continue
+        rows = np.column_stack([seconds, *(table[name] for name in numbers)])
+        kind, _, leaf = tail.partition('/')
+        if kind == 'wrench':
+            track.wrenches[leaf] = rows
+        elif kind == 'cmd':
+            track.commands[leaf] = rows
+
+
+def _factor(seconds: Array, walls: Array) -> Array:
+    """Return the real-time factor over windows of a hundredth of the flight."""
+    count = len(seconds)
+    edges = np.unique(np.linspace(0, count - 1, min(count, 101)).astype(int))
+    simulated, wall = np.diff(seconds[edges]), np.diff(walls[edges])
+    middle = (seconds[edges][1:] + seconds[edges][:-1]) / 2
+    with np.errstate(divide='ignore', invalid='ignore'):
+        factor = np.where(wall > 0, simulated / wall, np.nan)
+    return np.column_stack([middle, factor])

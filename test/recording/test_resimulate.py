@@ -1,0 +1,152 @@
+"""A log flown again gives every state to the last bit, and a difference is named."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+from flights import fly
+from mcap.writer import CompressionType, Writer
+
+from fluid_sim_ros import Simulation, cli, scene_names
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.recording.reader import open_log
+from fluid_sim_ros.recording.resimulate import parse_changes, resimulate
+from fluid_sim_ros.recording.sink import RecordingSink
+
+
+def flown(number, folder):
+    """Record a flight with a random scene, integrator, seed and commands."""
+    names = scene_names()
+    random = np.random.default_rng(number)
+    scene = names[number % len(names)]
+    integrator = str(random.choice(['RK4', 'implicitfast', 'Euler']))
+    path = folder / f'{number}.mcap'
+    fly(path, scene, seconds=0.5, seed=number, integrator=integrator)
+    return path
+
+
+def check_bits(path):
+    outcome = resimulate(open_log(path))
+    assert outcome.difference is None and not outcome.largest and not outcome.notes
+    assert outcome.compared > 100
+    return outcome
+
+
+@pytest.mark.parametrize('number', range(4))
+def test_a_random_flight_is_repeated_to_the_last_bit(number, tmp_path):
+    check_bits(flown(number, tmp_path))
+
+
+@pytest.mark.full
+@pytest.mark.parametrize('number', range(4, 24))
+def test_twenty_random_flights_are_repeated_to_the_last_bit(number, tmp_path):
+    check_bits(flown(number, tmp_path))
+
+
+def test_commands_are_fed_in(tmp_path):
+    path = tmp_path / 'a.mcap'
+    fly(path, 'quadrotor', seconds=1.0, seed=5)
+    assert check_bits(path).commands >= 100
+
+
+def test_a_scene_file_elsewhere_is_not_needed(tmp_path):
+    model = tmp_path / 'ball.xml'
+    model.write_text(
+        '<mujoco><option density="1.2" viscosity="1.8e-5" timestep="0.002"/><worldbody>'
+        '<body name="ball" pos="0 0 5"><freejoint/><geom size=".1"/></body>'
+        '</worldbody></mujoco>'
+    )
+    fly(tmp_path / 'a.mcap', str(model), seconds=0.5, seed=2)
+    model.unlink()
+    check_bits(tmp_path / 'a.mcap')
+
+
+def test_a_start_beside_the_keyframe_is_restored(tmp_path):
+    simulation = Simulation('sphere')
+    simulation.data.qpos[:3] = 1.25, -3.5, 17.0
+    simulation.set_current([1.0, 2.0, 0.5])
+    sink = RecordingSink(simulation, tmp_path / 'a.mcap')
+    for _ in range(50):
+        sink.write(simulation)
+        simulation.step(sink.period)
+    sink.close()
+    check_bits(tmp_path / 'a.mcap')
+
+
+def changed_copy(path, target, topic, number, offset, by):
+    """Copy a log with one double of one message changed."""
+    log = open_log(path)
+    count = 0
+    with target.open('xb') as stream:
+        writer = Writer(stream, 1 << 20, CompressionType.ZSTD)
+        writer.start(profile='ros2')
+        for name, data in log.attachments.items():
+            writer.add_attachment(0, 0, name, '', data)
+        ids = {}
+        for entry in log.topics.values():
+            schema = writer.register_schema(entry.type, 'ros2msg', entry.definition.encode())
+            ids[entry.name] = writer.register_channel(entry.name, 'cdr', schema, entry.metadata)
+        for message in log.messages():
+            data = bytearray(message.data)
+            if message.topic == topic:
+                if count == number:
+                    (value,) = struct.unpack_from('<d', data, offset)
+                    struct.pack_into('<d', data, offset, value + by)
+                count += 1
+            writer.add_message(ids[message.topic], message.log_ns, bytes(data), 0, message.step)
+        writer.finish()
+
+
+def test_the_first_difference_is_named(tmp_path, capsys):
+    path, bad = tmp_path / 'a.mcap', tmp_path / 'b.mcap'
+    fly(path, 'sphere', seconds=0.3, piloted=False)
+    # the sixth odometry's height: header 4, stamp 8, two strings, two doubles before it
+    offset = 4 + 8 + 4 + len('sphere/odom') + 1 + 4 + len('sphere/base_link') + 1
+    offset += -(offset - 4) % 8 + 16
+    changed_copy(path, bad, '/sphere/odom', 5, offset, 0.25)
+    assert cli.main(['replay', str(bad), '--resimulate', '--json', '-']) == 1
+    result = json.loads(capsys.readouterr().out)
+    different = result['difference']
+    assert (different['topic'], different['step']) == ('/sphere/odom', 25)
+    assert different['field'] == 'pose.pose.position.z'
+    assert different['recorded'] - different['simulated'] == 0.25
+    assert different['time_s'] == pytest.approx(0.05)
+    assert cli.main(['replay', str(bad), '--resimulate', '--tolerance', '1']) == 0
+    assert 'as tolerated' in capsys.readouterr().out
+
+
+def test_a_changed_command_is_a_difference(tmp_path):
+    path, bad = tmp_path / 'a.mcap', tmp_path / 'b.mcap'
+    fly(path, 'quadrotor', seconds=0.3, seed=1)
+    changed_copy(path, bad, '/x500/cmd/thrust', 10, 20, 1e-3)
+    difference = resimulate(open_log(bad)).difference
+    assert difference is not None and difference.step >= 50
+
+
+def test_a_change_is_flown(tmp_path):
+    path = tmp_path / 'a.mcap'
+    fly(path, 'sphere', seconds=0.5, piloted=False)
+    log = open_log(path)
+    for change in ('integrator=RK4', 'timestep=0.001', 'fluid=inertia', 'current=3,0,0'):
+        outcome = resimulate(log, changes=parse_changes([change]), keep=('/odom',))
+        pairs = outcome.pairs['/sphere/odom']
+        assert len(pairs) == 51 and outcome.compared == 0
+        assert pairs[-1][1] != pairs[-1][2]
+        assert struct.unpack_from('<iI', pairs[-1][2], 4) == (0, 500_000_000)
+
+
+def test_a_change_is_drawn_beside_the_recording(tmp_path, capsys):
+    path, picture = tmp_path / 'a.mcap', tmp_path / 'a.png'
+    fly(path, 'quadrotor', seconds=0.5, seed=3)  # with wind commands, which the change replaces
+    arguments = ['replay', str(path), '--with', 'wind=5,0,0', '--out', str(picture)]
+    assert cli.main([*arguments, '--json', '-']) == 0
+    apart = json.loads(capsys.readouterr().out)['differences']['x500']
+    assert 0.001 < apart['apart_at_end_m'] <= apart['largest_apart_m'] < 1.0
+    assert picture.read_bytes().startswith(b'\x89PNG')
+
+
+@pytest.mark.parametrize('pair', ['moon=1', 'wind', 'wind=a,b,c', 'timestep=fast'])
+def test_a_wrong_change_is_one_line(pair):
+    with pytest.raises(ConfigError, match='--with'):
+        parse_changes([pair])
