@@ -79,6 +79,8 @@ class Recorder:
             self.dropped += len(messages)
             self._gap += len(messages)
             return
+        if self._process is None:  # it ended while we waited for room
+            return
         if self._gap:
             gap, self._gap = self._gap, 0
             self.event(dropped=gap)
@@ -114,6 +116,8 @@ class Recorder:
 
     def flush(self, now: bool = False) -> None:
         """Send what was kept when there is enough of it or it is old enough, or now."""
+        if self._process is None:
+            return
         clock = time.monotonic()
         if not now and self._kept_size < _PORTION and clock - self._sent_at < _AGE:
             return
@@ -136,7 +140,7 @@ class Recorder:
         """Write as much of the queue as the pipe takes."""
         queue = self._queue
         try:
-            while queue:
+            while queue and self._process is not None:
                 done = os.write(self._pipe, queue[0])
                 self._queued -= done
                 if done == len(queue[0]):
