@@ -8,9 +8,9 @@ import numpy as np
 
 from fluid_sim_ros.environment import Schedule
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.fluid_rungs import compile_spec, force_fluid
 from fluid_sim_ros.gaits import Gaits
 from fluid_sim_ros.plugins import load_plugins
-from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene_schema import (
@@ -23,8 +23,6 @@ from fluid_sim_ros.scene_schema import (
 )
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
 
-#: Fluid rungs that ``Scene.compile(fluid=...)`` can force on a scene.
-FLUID_RUNGS = ('none', 'inertia', 'ellipsoid')
 INTEGRATORS = {
     name.removeprefix('mjINT_').lower(): getattr(mujoco.mjtIntegrator, name)
     for name in mujoco.mjtIntegrator.__members__
@@ -142,8 +140,8 @@ class Scene:
         if integrator is not None:
             spec.option.integrator = _integrator(integrator)
         if fluid is not None:
-            _force_fluid(spec, fluid, self.model_path)
-        model = _compile(spec, self.model_path)
+            force_fluid(spec, fluid, self.model_path)
+        model = compile_spec(spec, self.model_path)
         vehicles = self._vehicles(model)
         schedule = Schedule(self.schedule, model.opt.timestep)
         _check_schedule(self, vehicles)
@@ -227,81 +225,10 @@ def _read_model(path: Path) -> mujoco.MjSpec:
         raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
 
 
-def _compile(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
-    try:
-        return spec.compile()
-    except ValueError as error:
-        raise ModelError(f'{path}: {load_error_line(error)}') from None
-
-
 def _integrator(name: str) -> mujoco.mjtIntegrator:
     if name.lower() not in INTEGRATORS:
         raise ConfigError(f"integrator '{name}' is not known; allowed: {listed(INTEGRATORS)}")
     return INTEGRATORS[name.lower()]
-
-
-def _force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
-    """
-    Put the model on one rung of the ladder: no fluid, inertia boxes, or stock ellipsoids.
-
-    What plugins add (buoyancy, added mass, damping, a medium) is taken away with them; a body that
-    they kept afloat gets gravcomp instead, so that a scene stays what it is.
-    """
-    if fluid not in FLUID_RUNGS:
-        raise ConfigError(f"fluid '{fluid}' is not known; allowed: {listed(FLUID_RUNGS)}")
-    _take_plugins_away(spec, path)
-    if fluid == 'none':
-        spec.option.density = 0.0
-        spec.option.viscosity = 0.0
-        return
-    if spec.option.density <= 0 and spec.option.viscosity <= 0:
-        raise ConfigError(
-            f"fluid '{fluid}': {path} sets neither density nor viscosity, in <option> or in "
-            'fluid_sim.medium; set one'
-        )
-    if fluid == 'inertia':
-        for geom in spec.geoms:
-            geom.fluid_ellipsoid = 0.0
-    elif not any(geom.fluid_ellipsoid > 0 for geom in spec.geoms):
-        # visual geoms (no contact) stay dry, as a model's author would have it
-        for geom in spec.geoms:
-            if geom.parent.name != 'world' and (geom.contype or geom.conaffinity):
-                geom.fluid_ellipsoid = 1.0
-
-
-def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
-    """
-    Remove what models a fluid; opt takes over the medium's lower fluid.
-
-    A fluid_sim.thruster stays: it is the vehicle's drive (one that goes with the density of the
-    fluid gives nothing where there is none).
-    """
-    full = _compile(spec, path)
-    config = native().plugin_config
-    implicit = []
-    for instance in range(full.nplugin):
-        for key in ('density', 'viscosity'):
-            value = config(full._address, instance, 'fluid_sim.medium', key)
-            if value:
-                setattr(spec.option, key, float(value))
-    ours = {plugin.name for plugin in spec.plugins if plugin.plugin_name == 'fluid_sim.body'}
-    for body in spec.bodies:
-        reference = body.plugin
-        if reference.active and (
-            reference.plugin_name == 'fluid_sim.body' or reference.name in ours - {''}
-        ):
-            instance = full.body_plugin[full.body(body.name).id]
-            if config(full._address, instance, 'fluid_sim.body', 'volume'):
-                body.gravcomp = 1.0
-            if reference.id >= 0:  # configured on the body itself, not a named instance
-                implicit.append(reference.id)
-            reference.name = ''
-            reference.active = False
-    for number, plugin in enumerate(list(spec.plugins)):
-        name = plugin.plugin_name
-        fluid = name.startswith('fluid_sim.') and name != 'fluid_sim.thruster'
-        if number in implicit or fluid:
-            spec.delete(plugin)
 
 
 def _streams(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:

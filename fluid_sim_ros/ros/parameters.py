@@ -19,7 +19,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.scene import FLUID_RUNGS, INTEGRATORS
+from fluid_sim_ros.fluid_rungs import FLUID_RUNGS
+from fluid_sim_ros.scene import INTEGRATORS
 
 PACINGS = ('realtime', 'free', 'lockstep')
 MATCHES = ('stamp', 'count')

@@ -329,6 +329,20 @@ def test_a_lower_rung_takes_the_plugins_away_and_keeps_the_body_afloat(tmp_path,
         assert simulation.data.qvel[2] == pytest.approx(before, abs=1e-12)
 
 
+@pytest.mark.parametrize('fluid', ['none', 'inertia', 'ellipsoid'])
+def test_a_foil_on_a_body_goes_with_the_rung(tmp_path, fluid):
+    path = tmp_path / 'glider.xml'
+    path.write_text(
+        '<mujoco><option density="1.2" viscosity="1.8e-5"/><extension>'
+        '<plugin plugin="fluid_sim.foil"><instance name="wing"><config key="kind" value="wing"/>'
+        '<config key="span" value="2"/><config key="chord" value=".3"/>'
+        '<config key="stock_drag" value="keep"/></instance></plugin>'
+        '</extension><worldbody><body name="glider" simple="false"><freejoint/>'
+        '<geom type="box" size=".3 1 .01"/><plugin instance="wing"/></body></worldbody></mujoco>'
+    )
+    assert Simulation(path, fluid=fluid).model.nplugin == 0
+
+
 def test_a_plugin_that_refuses_its_configuration_is_one_line(tmp_path):
     path = tmp_path / 'buoy.xml'
     path.write_text(AMPHIBIOUS.replace('key="volume" value="auto"', 'key="volume" value="-1"'))
