@@ -5,6 +5,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from vehicle_equations import rotation
 
 from fluid_sim_ros import Scene, Simulation
 
@@ -43,11 +44,14 @@ def set_all(simulation: Simulation, vehicle: str, thrust: ArrayLike) -> None:
 def held(simulation: Simulation, quat: Array, seconds: float) -> Array:
     """Run with the attitude held; return the velocity in world axes [m/s], one row per step."""
     velocity = np.empty((round(seconds / simulation.timestep), 3))
+    center_b, qvel = simulation.model.body_ipos[1], simulation.data.qvel
     for row in velocity:
         simulation.data.qpos[3:7] = quat
-        simulation.data.qvel[3:6] = 0
+        # stopping the turn is a torque: the centre of mass keeps its velocity, not the origin
+        qvel[:3] += rotation(quat) @ np.cross(qvel[3:6], center_b)
+        qvel[3:6] = 0
         simulation.step()
-        row[:] = simulation.data.qvel[:3]
+        row[:] = qvel[:3]
     return velocity
 
 

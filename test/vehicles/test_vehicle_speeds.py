@@ -49,7 +49,7 @@ def test_hover_command_of_a_multirotor(name):
 @pytest.mark.parametrize('name', COPTERS)
 def test_speed_of_a_multirotor_against_its_tilt(name, tilt_deg):
     thrust, speed = EQUATIONS[name].level_flight(np.deg2rad(tilt_deg))
-    velocity = runs.tilted(name, np.deg2rad(tilt_deg), thrust, 120.0, 0.8 * speed)[-1]
+    velocity = runs.tilted(name, np.deg2rad(tilt_deg), thrust, 90.0, 0.8 * speed)[-1]
     assert velocity[0] == pytest.approx(speed, rel=SHARE)
     assert abs(velocity[1]) < 1e-9
     assert abs(velocity[2]) < SHARE * speed
