@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from fluid_sim_ros.commands import CommandedWrench, finite, write_controls
 from fluid_sim_ros.engine import EnergyBalance, Engine
 from fluid_sim_ros.environment import Event, exact
 from fluid_sim_ros.errors import CommandError, listed
@@ -20,7 +21,6 @@ from fluid_sim_ros.streams import SavedStreams, Streams
 from fluid_sim_ros.vehicle import Vehicle
 
 Array = NDArray[np.float64]
-WRENCH_FRAMES = ('base_link', 'map')
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class SavedState:
     engine: Array
     streams: SavedStreams
     step: int
-    wrenches: dict[str, tuple[Array, Array, str]]
+    wrenches: dict[str, CommandedWrench]
     added_events: tuple[Event, ...]
     gaits: tuple[str, ...] | None = None  # running ones; None: all of the scene
 
@@ -165,7 +165,8 @@ class Simulation:
             if self._wrenches:
                 # the axes of a commanded wrench turn with the body: hold them over one step only
                 stop = self._step + 1
-                self._write_wrenches()
+                for name, wrench in self._wrenches.items():
+                    wrench.write(self._vehicles[name], self._data)
             n = stop - self._step
             done = self._engine_step(n)
             self._step += done
@@ -193,7 +194,7 @@ class Simulation:
         self._schedule.rewind(0)
         self._gaits.restart(0)
         self._step = 0
-        self._wrenches: dict[str, tuple[Array, Array, str]] = {}
+        self._wrenches: dict[str, CommandedWrench] = {}
 
     def close(self) -> None:
         """Release nothing that Python would not; here so that every source can be closed."""
@@ -232,7 +233,7 @@ class Simulation:
 
         """
         target = self.vehicle(vehicle)
-        return self._set_controls(
+        return write_controls(self._data.ctrl,
             f"thrust of '{vehicle}'", values, target.thrusters, target.thruster_ids,
             target.thrust_range,
         )  # fmt: skip
@@ -254,24 +255,11 @@ class Simulation:
                 )
             held = dict(zip(target.joints, self._data.ctrl[target.joint_ids], strict=True))
             values = [{**held, **values}[name] for name in target.joints]
-        saturated = self._set_controls(
-            what, values, target.joints, target.joint_ids, target.joint_range
+        saturated = write_controls(
+            self._data.ctrl, what, values, target.joints, target.joint_ids, target.joint_range
         )
         self._gaits.end(vehicle)
         return saturated
-
-    def _set_controls(
-        self,
-        what: str,
-        values: Sequence[float] | Array,
-        names: tuple[str, ...],
-        ids: NDArray[np.int64],
-        limits: Array,
-    ) -> int:
-        command = _finite(what, values, len(names), f'({listed(names)})')
-        saturated = np.minimum(np.maximum(command, limits[:, 0]), limits[:, 1])
-        self._data.ctrl[ids] = saturated
-        return int(np.count_nonzero(saturated != command))
 
     def set_wind(self, velocity: Sequence[float] | Array) -> None:
         """
@@ -283,11 +271,11 @@ class Simulation:
             Wrong length, not finite, or a scene without air.
 
         """
-        self._streams.set('wind', _finite('wind', velocity, 3))
+        self._streams.set('wind', finite('wind', velocity, 3))
 
     def set_current(self, velocity: Sequence[float] | Array) -> None:
         """Set the current of the water; as ``set_wind``."""
-        self._streams.set('current', _finite('current', velocity, 3))
+        self._streams.set('current', finite('current', velocity, 3))
 
     def schedule(self, time_ns: int, change: ScheduledEvent) -> None:
         """
@@ -336,35 +324,11 @@ class Simulation:
 
         """
         target = self.vehicle(vehicle)
-        if frame not in WRENCH_FRAMES:
-            raise CommandError(
-                f"wrench of '{vehicle}': frame '{frame}' is not known; "
-                f'allowed: {listed(WRENCH_FRAMES)}'
-            )
-        if target.dof_address < 0:
-            raise CommandError(f"wrench of '{vehicle}': its base has no free joint")
-        force_f = _finite(f"force of '{vehicle}'", force, 3)
-        torque_f = _finite(f"torque of '{vehicle}'", torque, 3)
-        if force_f.any() or torque_f.any():
-            self._wrenches[vehicle] = (force_f, torque_f, frame)
+        wrench = CommandedWrench.checked(target, force, torque, frame)
+        if not wrench.is_zero():
+            self._wrenches[vehicle] = wrench
         elif self._wrenches.pop(vehicle, None):
             self._data.qfrc_applied[target.dof_address : target.dof_address + 6] = 0
-
-    def _write_wrenches(self) -> None:
-        # generalized force of a free joint: force at the body origin in world axes, torque in
-        # body axes
-        for name, (force_f, torque_f, frame) in self._wrenches.items():
-            vehicle = self._vehicles[name]
-            quat_wb = self._data.qpos[vehicle.qpos_address + 3 : vehicle.qpos_address + 7]
-            target = self._data.qfrc_applied[vehicle.dof_address : vehicle.dof_address + 6]
-            if frame == 'base_link':
-                mujoco.mju_rotVecQuat(target[:3], force_f, quat_wb)
-                target[3:] = torque_f
-            else:
-                inverse = np.empty(4)
-                mujoco.mju_negQuat(inverse, quat_wb)
-                target[:3] = force_f
-                mujoco.mju_rotVecQuat(target[3:], torque_f, inverse)
 
     def _apply(self, change: ScheduledEvent) -> None:
         if change.wind is not None:
@@ -442,16 +406,3 @@ class Simulation:
         self._wrenches = dict(state.wrenches)
         self._schedule.rewind(state.step, state.added_events)
         self._gaits.restart(state.step, state.gaits)
-
-
-def _finite(what: str, values: Sequence[float] | Array, size: int, names: str = '') -> Array:
-    """Return values as an array of the right size and only finite numbers, or CommandError."""
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise CommandError(f'{what}: {values!r} are not numbers') from None
-    if array.shape != (size,):
-        raise CommandError(f'{what}: got {array.size} values, needs {size} {names}'.rstrip())
-    if not np.isfinite(array).all():
-        raise CommandError(f'{what}: {array.tolist()} holds a value that is not finite')
-    return array
