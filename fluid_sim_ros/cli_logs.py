@@ -1,7 +1,8 @@
 """The subcommands of ``fluid_sim`` that work on logs."""
 
 import argparse
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,6 +46,20 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
         help='fly it again with a change, and draw both: integrator, timestep, fluid, wind, '
         'current (X,Y,Z), seed',
     )  # fmt: skip
+    replay.add_argument('--rate', type=float, default=1.0, help='times real time (default 1)')
+    replay.add_argument('--loop', action='store_true', help='begin anew at the end')
+    replay.add_argument(
+        '--paused', action='store_true', help='begin paused; ~/pause and ~/step go on'
+    )
+    replay.add_argument(
+        '--from', type=float, default=0.0, dest='begin', metavar='S', help='simulated time [s]'
+    )
+    replay.add_argument(
+        '--to', type=float, default=math.inf, dest='end', metavar='S', help='simulated time [s]'
+    )
+    replay.add_argument(
+        '--topics', nargs='+', default=['*'], metavar='PATTERN', help='shell patterns (all)'
+    )
     replay.add_argument('--out', metavar='PNG', type=Path, help='where --with draws both flights')
 
 
@@ -110,7 +125,35 @@ def _replay(arguments: argparse.Namespace, show: Show) -> int:
         return _what_if(log, arguments, show)
     if arguments.resimulate:
         return _resimulate(log, arguments, show)
-    raise ConfigError('replay: say --resimulate or --with KEY=VALUE')
+    return _publish(log, arguments, show)
+
+
+def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
+    from fnmatch import fnmatchcase
+
+    from fluid_sim_ros.recorder_tap import RecordedTopic
+    from fluid_sim_ros.ros.parameters import check_domain
+    from fluid_sim_ros.ros.replay import ReplayOptions, replay
+
+    check_domain()
+    options = ReplayOptions(arguments.rate, arguments.loop, arguments.paused)
+    begin, end = arguments.begin * 1e9, arguments.end * 1e9
+    topics = [
+        RecordedTopic(t.name, t.type)
+        for t in log.topics.values()
+        if any(fnmatchcase(t.name, pattern) for pattern in arguments.topics)
+    ]
+    names = {topic.name for topic in topics}
+
+    def messages() -> Iterator[tuple[str, int, bytes]]:
+        for message in log.messages(names):
+            if begin <= message.log_ns <= end:
+                yield message.topic, message.log_ns, message.data
+
+    count = replay(topics, messages, options)
+    result = {'log': str(log.path), 'published': count, 'faults': log.faults}
+    show(arguments.json, f'{count} messages published', result)
+    return DAMAGED if log.faults else 0
 
 
 def _resimulate(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:

@@ -1,0 +1,224 @@
+"""
+Publishes recorded messages on their ROS topics, with /clock, at any rate.
+
+While it runs: ``~/pause`` (SetBool), and when paused ``~/step`` (Trigger), which goes on to the
+next simulated time. Only the calling thread publishes; the services set flags for it.
+"""
+
+import importlib
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import rclpy
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool, Trigger
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.messages import templates
+from fluid_sim_ros.recorder_tap import RecordedTopic
+
+NODE_NAME = 'fluid_sim_replay'
+_CLOCK = '/clock'
+#: Longest sleep before flags are looked at again [s].
+_LONGEST_SLEEP = 0.05
+#: Both ends of a connection find each other within this time [s].
+_SETTLED = 0.5
+
+#: (topic, simulated time [ns], bytes), in order.
+Messages = Iterable[tuple[str, int, bytes]]
+
+
+@dataclass(frozen=True)
+class ReplayOptions:
+    """
+    How to replay.
+
+    Attributes
+    ----------
+    rate
+        Simulated seconds per wall second.
+    loop
+        Begin anew at the end, until ended.
+    paused
+        Begin paused.
+    wait
+        Wait up to this long for a subscriber before the begin [s].
+
+    """
+
+    rate: float = 1.0
+    loop: bool = False
+    paused: bool = False
+    wait: float = 2.0
+
+    def __post_init__(self) -> None:
+        if not 0 < self.rate < float('inf'):
+            raise ConfigError(f'--rate {self.rate:g}: must be finite and above 0')
+
+
+class ReplayNode(Node):
+    """The node that publishes."""
+
+    def __init__(self, topics: Sequence[RecordedTopic], options: ReplayOptions) -> None:
+        super().__init__(NODE_NAME)
+        self._options = options
+        self._publishers_by_name = {topic.name: self._publisher(topic) for topic in topics}
+        self._has_clock = _CLOCK in self._publishers_by_name
+        if not self._has_clock:
+            self._publishers_by_name[_CLOCK] = self.create_publisher(
+                Clock, _CLOCK, QoSProfile(depth=1)
+            )
+        self._clock_message, self._stamp = templates.clock(), templates.StampBytes()
+        self._going = threading.Event()
+        if not options.paused:
+            self._going.set()
+        self._steps = 0
+        self.ending = False
+        self.published = 0
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.create_service(Trigger, '~/step', self._on_step)
+
+    def _publisher(self, topic: RecordedTopic) -> Any:
+        package, _, name = topic.type.split('/')
+        message = getattr(importlib.import_module(f'{package}.msg'), name)
+        durable = DurabilityPolicy.TRANSIENT_LOCAL
+        return self.create_publisher(
+            message,
+            topic.name,
+            QoSProfile(
+                depth=topic.depth,
+                reliability=(
+                    ReliabilityPolicy.RELIABLE if topic.reliable else ReliabilityPolicy.BEST_EFFORT
+                ),
+                durability=durable if topic.transient_local else DurabilityPolicy.VOLATILE,
+            ),
+        )
+
+    # ---- services (executor thread) --------------------------------------------------------
+
+    def _on_pause(self, request: Any, response: Any) -> Any:
+        if request.data:
+            self._going.clear()
+        else:
+            self._going.set()
+        response.success = True
+        return response
+
+    def _on_step(self, request: Any, response: Any) -> Any:
+        response.success = not self._going.is_set()
+        if response.success:
+            self._steps += 1
+        else:
+            response.message = 'not paused; call ~/pause with true first'
+        return response
+
+    # ---- publishing (the caller's thread) --------------------------------------------------
+
+    def play(self, messages: Callable[[], Messages]) -> None:
+        """Publish all messages, again and again with ``loop``, until ``ending`` is set."""
+        self._await_subscribers()
+        while not self.ending:
+            self._play_once(iter(messages()))
+            if not self._options.loop:
+                self._await_delivery()
+                return
+
+    def _await_subscribers(self) -> None:
+        """Wait until there are some, and no more have come for a while."""
+        deadline = time.monotonic() + self._options.wait
+        present, since = 0, time.monotonic()
+        while time.monotonic() < deadline and not self.ending:
+            publishers = self._publishers_by_name.values()
+            count = sum(publisher.get_subscription_count() for publisher in publishers)
+            if count != present:
+                present, since = count, time.monotonic()
+            elif present and time.monotonic() - since > _SETTLED:
+                return
+            time.sleep(_LONGEST_SLEEP)
+
+    def _await_delivery(self) -> None:
+        """Wait until what was published has arrived, for a while at most."""
+        for publisher in self._publishers_by_name.values():
+            publisher.wait_for_all_acked(Duration(seconds=1))
+
+    def _play_once(self, messages: Iterator[tuple[str, int, bytes]]) -> None:
+        present, begin_ns, begin = -1, 0, 0.0
+        for topic, time_ns, data in messages:
+            if time_ns != present:
+                stepped = self._hold()
+                if self.ending:
+                    return
+                if present < 0 or stepped:
+                    begin_ns, begin = time_ns, time.monotonic()
+                self._sleep_until(begin + (time_ns - begin_ns) * 1e-9 / self._options.rate)
+                present = time_ns
+                if not self._has_clock:
+                    self._publish_clock(time_ns)
+            self._publishers_by_name[topic].handle.publish_raw(data)
+            self.published += 1
+
+    def _hold(self) -> bool:
+        """Wait while paused; return whether the pace must begin anew."""
+        if self._going.is_set():
+            return False
+        while not self.ending:
+            if self._steps:
+                self._steps -= 1
+                break
+            if self._going.wait(_LONGEST_SLEEP):
+                break
+        return True
+
+    def _sleep_until(self, due: float) -> None:
+        while not self.ending:
+            left = due - time.monotonic()
+            if left <= 0 or not self._going.is_set():
+                return
+            time.sleep(min(left, _LONGEST_SLEEP))
+
+    def _publish_clock(self, time_ns: int) -> None:
+        self._stamp.set(time_ns)
+        self._clock_message.stamp[:] = self._stamp.view
+        publisher: Any = self._publishers_by_name[_CLOCK]
+        publisher.handle.publish_raw(self._clock_message.bytes())
+
+
+def replay(
+    topics: Sequence[RecordedTopic], messages: Callable[[], Messages], options: ReplayOptions
+) -> int:
+    """Publish until the end, or until SIGINT or SIGTERM; return how many were published."""
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    node = ReplayNode(topics, options)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    def end(number: int, frame: Any) -> None:
+        node.ending = True
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    thread = threading.Thread(target=spin, name='executor')
+    thread.start()
+    try:
+        node.play(messages)
+    finally:
+        executor.shutdown()
+        thread.join()
+        node.destroy_node()
+        rclpy.shutdown()
+    return node.published
