@@ -44,11 +44,12 @@ def set_all(simulation: Simulation, vehicle: str, thrust: ArrayLike) -> None:
 def held(simulation: Simulation, quat: Array, seconds: float) -> Array:
     """Run with the attitude held; return the velocity in world axes [m/s], one row per step."""
     velocity = np.empty((round(seconds / simulation.timestep), 3))
-    center_b, qvel = simulation.model.body_ipos[1], simulation.data.qvel
+    qvel, center_b = simulation.data.qvel, simulation.model.body_ipos[1]
+    # stopping the turn is a torque: the centre of mass keeps its velocity, not the origin
+    of_turn = rotation(quat) @ np.cross(np.eye(3), center_b).T
     for row in velocity:
         simulation.data.qpos[3:7] = quat
-        # stopping the turn is a torque: the centre of mass keeps its velocity, not the origin
-        qvel[:3] += rotation(quat) @ np.cross(qvel[3:6], center_b)
+        qvel[:3] += of_turn @ qvel[3:6]
         qvel[3:6] = 0
         simulation.step()
         row[:] = qvel[:3]
