@@ -119,7 +119,7 @@ MAVLINK = ['pymavlink>=2.4.41,<3']
 RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
 TEST = [
-    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1',
+    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', 'pyarrow>=16',
     *CHARTS,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
@@ -144,7 +144,7 @@ setup(
     license='Apache-2.0',
     python_requires='>=3.11,<3.13',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['py.typed', 'messages/*.json']},
+    package_data={PACKAGE: ['py.typed', 'messages/*.json', 'recording/*.html']},
     ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
     cmdclass={'build_ext': BuildPluginLibrary},
     data_files=[

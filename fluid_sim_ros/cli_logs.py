@@ -32,6 +32,12 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
     repair = add('repair', 'write all that is sound in a damaged log to a new one', _repair)
     repair.add_argument('out', metavar='OUT', type=Path, help='.mcap file, or a folder: a bag')
 
+    plot = add('plot', 'draw a log: PNG pictures and one interactive HTML file', _plot)
+    plot.add_argument('--out', metavar='FOLDER', type=Path, help='default: beside the log')
+    export = add('export', 'write a log as tables, one file per topic', _export)
+    kinds = export.add_mutually_exclusive_group(required=True)
+    kinds.add_argument('--csv', metavar='FOLDER', type=Path, help='text, every digit kept')
+    kinds.add_argument('--parquet', metavar='FOLDER', type=Path, help='needs pyarrow')
     replay = add('replay', 'publish a log on ROS topics, or fly it again', _replay)
     replay.add_argument(
         '--resimulate', action='store_true',
@@ -115,6 +121,58 @@ def _repair(arguments: argparse.Namespace, show: Show) -> int:
     text = f'{result["path"]}: {result["messages"]} messages, {result["bytes"]} bytes{lost}'
     show(arguments.json, escape(text), result)
     return 0
+
+
+def _plot(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording import pictures
+    from fluid_sim_ros.recording.inspect import about
+    from fluid_sim_ros.recording.reader import open_log
+    from fluid_sim_ros.recording.report import write_report
+    from fluid_sim_ros.recording.tracks import read_tracks
+
+    log = open_log(arguments.log)
+    tracks = read_tracks(log)
+    folder = _folder(arguments.out, log.path)
+    files = [
+        pictures.overview(track, tracks, folder / f'{log.path.stem}_{_file_name(track.name)}.png')
+        for track in tracks.vehicles
+    ]
+    files.append(write_report(tracks, about(log), folder / f'{log.path.stem}.html'))
+    result = {'log': str(log.path), 'files': [str(file) for file in files], 'faults': log.faults}
+    lines = [*(str(file) for file in files), *(f'damaged: {fault}' for fault in log.faults)]
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return DAMAGED if log.faults else 0
+
+
+def _export(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.export import export
+    from fluid_sim_ros.recording.reader import open_log
+
+    log = open_log(arguments.log)
+    kind = 'csv' if arguments.csv else 'parquet'
+    files = export(log, _folder(arguments.csv or arguments.parquet, log.path), kind)
+    result = {'log': str(log.path), 'files': files, 'faults': log.faults}
+    lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return DAMAGED if log.faults else 0
+
+
+def _folder(given: Path | None, log: Path) -> Path:
+    """Return the folder for what is made of a log, made when it is not there."""
+    folder = given or log.parent
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ConfigError(f'--out {folder}: {error.strerror}') from None
+    return folder
+
+
+def _file_name(vehicle: str) -> str:
+    return vehicle.replace('/', '_')
 
 
 def _replay(arguments: argparse.Namespace, show: Show) -> int:

@@ -84,6 +84,27 @@ def info(path: str | Path) -> dict[str, Any]:
     return result | {'run': {'scene': run['scene']['name'], **{k: run[k] for k in named}}}
 
 
+def about(log: Log) -> list[tuple[str, str]]:
+    """Return what a reader of pictures must know of a log, as (key, text)."""
+    rows = [('log', log.path.name)]
+    try:
+        run = log.description().run
+    except LogError as error:
+        rows.append(('run', str(error)))
+    else:
+        versions = run['versions']
+        rows += [
+            ('scene', run['scene']['name']),
+            ('seed', str(run['seed'])),
+            ('timestep', f'{run["timestep"]:g} s, {run["integrator"]}'),
+            (
+                'recorded by',
+                f'fluid_sim_ros {versions["fluid_sim_ros"]}, MuJoCo {versions["mujoco"]}',
+            ),
+        ]
+    return rows + [('damaged', fault) for fault in log.faults]
+
+
 def _rate(entry: Count) -> float | None:
     seconds = (entry.last_ns - entry.first_ns) * 1e-9
     return round((entry.messages - 1) / seconds, 3) if seconds > 0 else None
