@@ -49,7 +49,9 @@ class RequestQueue:
             return future.result(timeout)  # type: ignore[return-value]
 
     def serve(self) -> None:
-        """Run what waits; called by the stepping thread only."""
+        """Run what waits; called by the stepping thread only, at every turn of its loop."""
+        if not self._waiting:
+            return
         while self._waiting:
             work, future = self._waiting.popleft()
             if not future.set_running_or_notify_cancel():
