@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -34,6 +35,13 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
 
     plot = add('plot', 'draw a log: PNG pictures and one interactive HTML file', _plot)
     plot.add_argument('--out', metavar='FOLDER', type=Path, help='default: beside the log')
+    film = add('render', 'make a film of a log: .mp4, .gif, or the last picture as .png', _render)
+    film.add_argument('--out', metavar='FILE', type=Path, help='default: LOG with .mp4')
+    film.add_argument('--size', type=int, nargs=2, metavar=('W', 'H'), default=(640, 480))
+    film.add_argument('--fps', type=float, default=30.0, help='pictures per second (default 30)')
+    film.add_argument('--speed', type=float, default=1.0, help='times real time (default 1)')
+    film.add_argument('--vehicle', default='', metavar='NAME', help='that is followed')
+    film.add_argument('--camera', default='', metavar='NAME', help='of the model')
     export = add('export', 'write a log as tables, one file per topic', _export)
     kinds = export.add_mutually_exclusive_group(required=True)
     kinds.add_argument('--csv', metavar='FOLDER', type=Path, help='text, every digit kept')
@@ -158,6 +166,31 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
     result = {'log': str(log.path), 'files': files, 'faults': log.faults}
     lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, escape('\n'.join(lines)), result)
+    return DAMAGED if log.faults else 0
+
+
+def _render(arguments: argparse.Namespace, show: Show) -> int:
+    # before MuJoCo is imported: no display is needed
+    os.environ.setdefault('MUJOCO_GL', 'egl')
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.progress import Progress
+
+    from fluid_sim_ros.recording.reader import open_log
+    from fluid_sim_ros.recording.render import FilmOptions, render
+
+    log = open_log(arguments.log)
+    out = arguments.out or log.path.with_suffix('.mp4')
+    _folder(out.parent, log.path)
+    width, height = arguments.size
+    options = FilmOptions(
+        width, height, arguments.fps, arguments.speed, arguments.vehicle, arguments.camera
+    )
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task('rendering', total=1.0)
+        count = render(log, out, options, lambda done: progress.update(task, completed=done))
+    result = {'log': str(log.path), 'file': str(out), 'pictures': count, 'faults': log.faults}
+    show(arguments.json, escape(f'{out}: {count} pictures'), result)
     return DAMAGED if log.faults else 0
 
 

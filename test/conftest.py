@@ -14,6 +14,8 @@ import pytest
 DOMAINS = range(1, 61)
 _LOCKS = Path(tempfile.gettempdir()) / f'fluid_sim_ros_test_domains_{os.getuid()}'
 _turn = count()
+# MuJoCo chooses its renderer when it is imported; tests have no display
+os.environ.setdefault('MUJOCO_GL', 'egl')
 
 
 @contextmanager
