@@ -15,6 +15,7 @@ from fluid_sim_ros.messages.cdr import (
 )
 from fluid_sim_ros.scene_schema import ScheduledEvent
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.thrust_matrix import WrenchAllocation
 from fluid_sim_ros.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -39,11 +40,14 @@ class Effect:
         It answers the present state (always true of commands that carry no stamp to match).
     saturated
         How many values were beyond the range.
+    shortfall
+        What an allocated wrench lacks, in words, or ''.
 
     """
 
     answers: bool = True
     saturated: int = 0
+    shortfall: str = ''
 
 
 @dataclass(frozen=True)
@@ -78,6 +82,7 @@ class Commands:
         self._simulation = simulation
         self._settings = settings
         self.topics: list[CommandTopic] = []
+        self._allocations: dict[str, WrenchAllocation] = {}
         for vehicle in simulation.vehicles.values():
             self._add_vehicle(vehicle)
         for stream in ('wind', 'current'):
@@ -94,6 +99,10 @@ class Commands:
             self._add(
                 f'{name}/cmd/thrust_stamped', JOINT_STATE,
                 lambda data: self._thrust_stamped(vehicle, data, scale), name,
+            )  # fmt: skip
+            self._add(
+                f'{name}/cmd/wrench_allocated', WRENCH,
+                lambda data: self._wrench_allocated(vehicle, data), name,
             )  # fmt: skip
         if vehicle.dof_address >= 0:
             self._add(f'{name}/cmd/wrench', WRENCH, lambda data: self._wrench(vehicle, data))
@@ -158,6 +167,18 @@ class Commands:
             vehicle.name, command.first, command.second, frames[command.frame]
         )
         return Effect()
+
+    def _wrench_allocated(self, vehicle: Vehicle, data: bytes) -> Effect:
+        command = read_stamped_pair(data)
+        allowed = f'{vehicle.name}/base_link'
+        if command.frame != allowed:
+            raise CommandError(f"frame '{command.frame}' is not known; allowed: {allowed}")
+        if vehicle.name not in self._allocations:
+            self._allocations[vehicle.name] = WrenchAllocation(self._simulation.model, vehicle)
+        allocation = self._allocations[vehicle.name]
+        thrusts, shortfall = allocation.thrusts(command.first.tolist(), command.second.tolist())
+        saturated = self._simulation.set_thrust(vehicle.name, thrusts)
+        return Effect(saturated=saturated, shortfall=shortfall)
 
     def _medium_of(self, stream: str) -> Callable[[bytes], Effect]:
         def apply(data: bytes) -> Effect:

@@ -271,6 +271,9 @@ class Inputs:
                     f'{vehicle} saturated',
                     f"thrust of '{vehicle}': {effect.saturated} of {count} values saturated",
                 )
+        if effect.shortfall:
+            self.saturated += 1
+            self._report(f'{vehicle} allocated', effect.shortfall)
         if vehicle:
             freshness = self.freshness[vehicle]
             freshness.commanded_at = self._command_clock(simulation, time.monotonic())

@@ -6,6 +6,7 @@ import numpy as np
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.thrust_matrix import thrust_matrix
 from fluid_sim_ros.vehicle import Vehicle
 
 
@@ -59,7 +60,7 @@ def _measure(simulation: Simulation, vehicle: Vehicle) -> Plant:
     Measure the plant on the compiled model, at rest and level at the scene's keyframe.
 
     Weight is what holds the vehicle at rest, so gravity compensation and buoyancy count, whatever
-    provides them. Each column of the thruster matrix is the wrench at 1 N of that thruster.
+    provides them.
     """
     simulation.enable_wind(False)
     model, data = simulation.model, simulation.data
@@ -72,14 +73,8 @@ def _measure(simulation: Simulation, vehicle: Vehicle) -> Plant:
     inertia = data.crb[body]
     center_b = data.subtree_com[body] - data.xpos[body]
     weight = float(data.qfrc_bias[dof + 2] - data.qfrc_passive[dof + 2])
-    matrix = np.empty((6, len(vehicle.thrusters)))
-    for column, actuator in enumerate(vehicle.thruster_ids):
-        data.ctrl[:] = 0.0
-        data.ctrl[actuator] = 1.0
-        mujoco.mj_fwdActuation(model, data)
-        wrench = data.qfrc_actuator[dof : dof + 6]
-        matrix[:3, column] = wrench[:3]
-        matrix[3:, column] = wrench[3:] - np.cross(center_b, wrench[:3])
+    matrix = thrust_matrix(model, data, vehicle)
+    matrix[3:] -= np.cross(center_b, matrix[:3], axisb=0, axisc=0)
     return Plant(
         mass=float(model.body_subtreemass[body]),
         inertia=(float(inertia[0]), float(inertia[1]), float(inertia[2])),
