@@ -151,7 +151,7 @@ def _demo(rest: Sequence[str]) -> int:
             f'the demo needs {error.name}, which is not installed; '
             'fluid_sim doctor says what to type'
         ) from None
-    return int(demo(rest) or 0)
+    return int(demo(rest, evaluate=cli_logs.evaluate_flight) or 0)
 
 
 def _doctor(arguments: argparse.Namespace) -> int:

@@ -32,7 +32,21 @@ _DISTANCE = 4.0
 
 @dataclass(frozen=True)
 class FilmOptions:
-    """Size [pixels], frames per second of the film, and simulated seconds per second of it."""
+    """
+    How to render.
+
+    Attributes
+    ----------
+    width, height
+        [pixels].
+    rate, speed
+        Pictures per second of the film, and simulated seconds per second of it.
+    vehicle, camera
+        That is followed, and a camera of the model; empty: chosen.
+    at
+        Simulated time of a still [s]; None: the end.
+
+    """
 
     width: int = 640
     height: int = 480
@@ -40,6 +54,7 @@ class FilmOptions:
     speed: float = 1.0
     vehicle: str = ''
     camera: str = ''
+    at: float | None = None
 
     def __post_init__(self) -> None:
         if not (self.rate > 0 and self.speed > 0 and self.width > 0 and self.height > 0):
@@ -79,7 +94,7 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
         stage = _Stage(log, Path(folder), options)
         times = stage.frame_times()
         if out.suffix == '.png':
-            times = times[-1:]
+            times = times[-1:] if options.at is None else np.array([options.at])
         sink = _sink(out, options)
         try:
             for number, time in enumerate(times, 1):

@@ -57,8 +57,20 @@ _TOPICS = {
 _ODOMETRY = f'{VEHICLE}/odom'
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run the demo; returns the exit code."""
+#: Name of the flight's log in the folder of the results.
+LOG = 'flight.mcap'
+
+
+def main(
+    argv: Sequence[str] | None = None,
+    evaluate: Callable[[Path], dict[str, Any]] | None = None,
+) -> int:
+    """
+    Run the demo; returns the exit code.
+
+    With ``evaluate`` the simulator records the flight; it is called with the log and returns what
+    the summary shall say of it under ``log``, with the lines to show under ``lines``.
+    """
     options = _parser().parse_args(argv)
     if not (math.isfinite(options.duration) and options.duration > 0):
         raise FluidSimError(f'--duration {options.duration:g}: must be finite and above 0 s')
@@ -72,8 +84,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         f'Simulator and controller as two ROS 2 processes, {options.duration:g} simulated seconds '
         '...'
     )
-    recording = record(out, options.duration)
+    log = None
+    if evaluate is not None:
+        log = out / LOG
+        log.unlink(missing_ok=True)
+    recording = record(out, options.duration, log)
     result = summary(recording)
+    lines = []
+    if evaluate is not None and log is not None:
+        result['log'] = evaluate(log)
+        lines = result['log'].pop('lines')
     pictures = [
         demo_plots.trajectory(recording, targets(recording), out / 'trajectory.png'),
         demo_plots.wrench(recording, out / 'wrench.png'),
@@ -82,6 +102,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     (out / 'summary.json').write_text(text, encoding='utf-8')
     console.print(table(result))
     console.print(f'Plots: {", ".join(map(str, pictures))}', soft_wrap=True)
+    for line in lines:
+        console.print(line, soft_wrap=True, markup=False)
     console.print(f'Summary: {out / "summary.json"}; logs: {out}/*.log', soft_wrap=True)
     _write_json(options.json, text)
     return 0
@@ -109,9 +131,9 @@ def _write_json(path: str | None, text: str) -> None:
 # ---- the run ---------------------------------------------------------------------------------
 
 
-def record(out: Path, duration: float) -> Recording:
+def record(out: Path, duration: float, log: Path | None = None) -> Recording:
     """
-    Run simulator and controller and return what they published.
+    Run simulator and controller and return what they published; the simulator records to ``log``.
 
     Raises
     ------
@@ -122,7 +144,10 @@ def record(out: Path, duration: float) -> Recording:
     # nobody outside this host is asked, neither by this process nor by its children
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     topics = {f'{VEHICLE}/{leaf}': kind for leaf, kind in _TOPICS.items()}
-    with _recorder(topics) as (recorder, domain), _children(out, domain, duration) as children:
+    with (
+        _recorder(topics) as (recorder, domain),
+        _children(out, domain, duration, log) as children,
+    ):
         _follow(recorder, children)
         rows = [recorder.rows(topic) for topic in topics]
         wall = _wall_time(recorder)
@@ -203,12 +228,13 @@ def _recorder(topics: dict[str, type]) -> Iterator[tuple[Recorder, int]]:
 class _Children:
     """The simulator, and the controller once it is started."""
 
-    def __init__(self, out: Path, domain: int, duration: float) -> None:
+    def __init__(self, out: Path, domain: int, duration: float, log: Path | None) -> None:
         self._out = out
         self._environment = {'ROS_DOMAIN_ID': str(domain), 'ROS_LOG_DIR': str(out / 'ros_log')}
         self.simulator = self._start(
             'fluid_sim_node', 'fluid_sim_ros.ros.node',
             scene=SCENE, pacing='lockstep', duration=repr(duration),
+            **({} if log is None else {'record': log}),
         )  # fmt: skip
         self.controller: Child | None = None
 
@@ -244,9 +270,9 @@ def _on_sigterm(number: int, frame: Any) -> None:
 
 
 @contextmanager
-def _children(out: Path, domain: int, duration: float) -> Iterator[_Children]:
+def _children(out: Path, domain: int, duration: float, log: Path | None) -> Iterator[_Children]:
     before = signal.signal(signal.SIGTERM, _on_sigterm)
-    children = _Children(out, domain, duration)
+    children = _Children(out, domain, duration, log)
     try:
         yield children
         for child in children.all():

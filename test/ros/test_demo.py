@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from fluid_sim_ros.cli_logs import evaluate_flight
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.ros import demo
 from fluid_sim_ros.ros.children import Child
@@ -18,7 +19,8 @@ pytestmark = pytest.mark.ros
 
 def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / 'out'
-    assert demo.main(['--out', str(out), '--duration', '12', '--json', '-']) == 0
+    arguments = ['--out', str(out), '--duration', '12', '--json', '-']
+    assert demo.main(arguments, evaluate=evaluate_flight) == 0
     printed = capsys.readouterr()
     result = json.loads(printed.out)
     assert result == json.loads((out / 'summary.json').read_text())
@@ -34,7 +36,10 @@ def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixt
     # drag of the inertia box at 6 m/s: 2 rho r_j r_k v^2, from 0.8 N along an axis
     assert 0.5 < result['largest_fluid_force_n'] < 1.2
     assert 10.0 <= result['largest_fluid_force_at_s'] <= 12.0
-    for name in ('trajectory.png', 'wrench.png'):
+    # 14 state topics at 100 Hz, every message of them flown again
+    assert result['log']['identical'] and result['log']['states_resimulated'] == 14 * 1201
+    assert result['log']['commands'] == 1200
+    for name in ('trajectory.png', 'wrench.png', 'still.png'):
         assert (out / name).read_bytes().startswith(b'\x89PNG')
         assert (out / name).stat().st_size > 20_000
 
