@@ -67,7 +67,13 @@ def test_a_replay_is_recorded_bytes(log):
     with Peer() as peer:
         received = []
         peer.node.create_subscription(Odometry, '/sphere/odom', received.append, 1000, raw=True)
-        with replay(log, '--rate', '2') as process:
+        with replay(log, '--paused', '--rate', '2') as process:
+
+            def step_arrives():
+                return peer.call(Trigger, 'fluid_sim_replay/step').success and received
+
+            wait_until(step_arrives, 'the first message')  # discovery may take a while
+            peer.call(SetBool, 'fluid_sim_replay/pause', data=False)
             assert process.wait() == 0
     assert len(received) > 50 and set(received) <= recorded
 
