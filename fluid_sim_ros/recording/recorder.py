@@ -86,9 +86,9 @@ class Recorder:
             self.event(dropped=gap)
         simulation = self._simulation
         step, time_ns, now_ns = simulation.step_count, simulation.time_ns, time.time_ns()
-        pack, kept = wire.MESSAGE.pack, self._kept
+        head, kept = wire.head, self._kept
         for topic, data in messages:
-            kept.append(pack(topic, step, time_ns, now_ns, len(data)))
+            kept.append(head(topic, step, time_ns, now_ns, len(data)))
             kept.append(data)
             self._kept_size += len(data)
         self.written += len(messages)
@@ -100,9 +100,7 @@ class Recorder:
             return
         simulation = self._simulation
         self._kept.append(
-            wire.MESSAGE.pack(
-                topic, simulation.step_count, simulation.time_ns, time.time_ns(), len(data)
-            )
+            wire.head(topic, simulation.step_count, simulation.time_ns, time.time_ns(), len(data))
         )
         self._kept.append(data)
         self._kept_size += len(data)

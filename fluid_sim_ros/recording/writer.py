@@ -17,15 +17,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from mcap.writer import CompressionType, Writer
-
 from fluid_sim_ros.recording import rosbag2, wire
+from fluid_sim_ros.recording.mcap_file import McapFile
 
 #: Size at which a chunk is closed [bytes].
 CHUNK_SIZE = 1 << 20
 _READ_SIZE = 1 << 20
-#: A chunk is never closed by the library itself, so that we know where the last whole one ends.
-_NEVER = 1 << 40
 
 
 class LogFile:
@@ -35,39 +32,28 @@ class LogFile:
         self._chunk_s: float = start['chunk_s']
         self._path = Path(start['path'])
         self._stream = self._path.open('r+b')
-        self._writer = Writer(
-            self._stream, _NEVER, CompressionType.ZSTD, enable_crcs=True, enable_data_crcs=True
-        )
+        self._file = McapFile(self._stream)
         self._channels = start['channels']
-        self.messages = 0
-        self._counts = [0] * len(self._channels)
-        self._first_ns, self._last_ns = 0, 0
-        self._pending = 0
+        self._pending = False
         self._deadline = 0.0
         self.whole = 0  # the file is good up to here [bytes]
         self._begin(start)
 
     def _begin(self, start: dict[str, Any]) -> None:
-        writer = self._writer
-        writer.start(profile='ros2', library=start['library'])
+        file = self._file
+        file.start('ros2', start['library'])
         for name, content in start['attachments'].items():
             data = base64.b64decode(content)
             kind = 'application/json' if name.endswith('.json') else 'application/octet-stream'
-            writer.add_attachment(start['wall_ns'], 0, name, kind, data)
+            file.attach(name, kind, data, start['wall_ns'])
         for name, pairs in start['metadata'].items():
-            writer.add_metadata(name, pairs)
+            file.add_metadata(name, pairs)
         schemas: dict[str, int] = {}
-        self._ids = []
         for channel in self._channels:
             kind = channel['type']
             if kind not in schemas:
-                text = channel['definition'].encode()
-                schemas[kind] = writer.register_schema(kind, 'ros2msg', text)
-            self._ids.append(
-                writer.register_channel(
-                    channel['topic'], 'cdr', schemas[kind], channel['metadata']
-                )
-            )
+                schemas[kind] = file.add_schema(kind, channel['definition'].encode())
+            file.add_channel(channel['topic'], schemas[kind], channel['metadata'])
         self._sync()
 
     @property
@@ -75,66 +61,57 @@ class LogFile:
         """When the open chunk must be closed [s, monotonic]; None without one."""
         return self._deadline if self._pending else None
 
-    def add(self, payload: memoryview) -> None:
+    def add(self, payload: bytes) -> None:
         """Add the messages of a frame."""
-        add, ids = self._writer.add_message, self._ids
         if not self._pending:
             self._deadline = time.monotonic() + self._chunk_s
-        for channel, step, log_ns, publish_ns, data in wire.unpack(payload):
-            if not self.messages:
-                self._first_ns = log_ns
-            add(ids[channel], log_ns, data, publish_ns, step)
-            self.messages += 1
-            self._counts[channel] += 1
-            self._last_ns = log_ns
-        self._pending += len(payload)
-        if self._pending >= CHUNK_SIZE:
-            self._writer.flush()
+            self._pending = True
+        self._file.add(payload)
+        if self._file.chunk_size >= CHUNK_SIZE:
+            self._file.close_chunk()
             self.whole = self._stream.tell()
             # the disk is waited for once per deadline only
             if time.monotonic() >= self._deadline:
                 self._sync()
-            else:
-                self._pending = 1
 
     def close_chunk(self) -> None:
         """Close the open chunk and bring everything to the disk."""
-        self._writer.flush()
+        self._file.close_chunk()
         self._sync()
 
     def _sync(self) -> None:
         self._stream.flush()
         os.fdatasync(self._stream.fileno())
         self.whole = self._stream.tell()
-        self._pending = 0
+        self._pending = False
 
     def finish(self) -> dict[str, Any]:
         """End the file with its summary; return what it holds."""
-        self._writer.finish()
+        self._file.finish()
         self._stream.flush()
-        self._stream.truncate()
         os.fsync(self._stream.fileno())
         size = self._stream.tell()
         self._stream.close()
+        counts = list(self._file.counts.values())
         if self._path.parent.name == self._path.stem.rpartition('_')[0]:
             rosbag2.write_metadata(
-                self._path, self._channels, self._counts, self._first_ns, self._last_ns
+                self._path, self._channels, counts, self._file.first_ns, self._file.last_ns
             )
-        return {'path': str(self._path), 'messages': self.messages, 'bytes': size}
+        return {'path': str(self._path), 'messages': sum(counts), 'bytes': size}
 
     def cut(self) -> None:
         """Cut the file back to its last whole chunk, after a failed write."""
         os.ftruncate(self._stream.fileno(), self.whole)
 
 
-def frames(deadline: Any) -> Iterator[tuple[bytes, memoryview]]:
+def frames(deadline: Any) -> Iterator[tuple[bytes, bytes]]:
     """Return frames from standard input until it ends; an empty kind when the deadline passed."""
     buffer = bytearray()
     while True:
         due = deadline()
         timeout = None if due is None else max(0.0, due - time.monotonic())
         if not select.select([0], [], [], timeout)[0]:
-            yield b'', memoryview(b'')
+            yield b'', b''
             continue
         got = os.read(0, _READ_SIZE)
         if not got:
@@ -146,7 +123,7 @@ def frames(deadline: Any) -> Iterator[tuple[bytes, memoryview]]:
             begin = at + wire.FRAME.size
             if len(buffer) < begin + size:
                 break
-            yield kind, memoryview(bytes(buffer[begin : begin + size]))
+            yield kind, bytes(buffer[begin : begin + size])
             at = begin + size
         del buffer[:at]
 
@@ -162,7 +139,7 @@ class Server:
         try:
             for kind, payload in frames(self._deadline):
                 self._take(kind, payload)
-            self._take(wire.END, memoryview(b''))
+            self._take(wire.END, b'')
         except OSError as error:
             _say({'fault': error.strerror})
             if self._log is not None:
@@ -172,9 +149,9 @@ class Server:
     def _deadline(self) -> float | None:
         return self._log.deadline if self._log else None
 
-    def _take(self, kind: bytes, payload: memoryview) -> None:
+    def _take(self, kind: bytes, payload: bytes) -> None:
         if kind == wire.START:
-            self._log = LogFile(json.loads(bytes(payload)))
+            self._log = LogFile(json.loads(payload))
         elif self._log is None:
             return
         elif kind == wire.MESSAGES:
