@@ -25,11 +25,23 @@ def replay(log, *options):
     return Process('fluid_sim_ros.cli', 'replay', str(log), *options)
 
 
+def play_when_heard(peer, *lists):
+    """Step a paused replay until every list has a message (discovery takes a while), then play."""
+
+    def step_arrives():
+        return peer.call(Trigger, 'fluid_sim_replay/step').success and all(lists)
+
+    wait_until(step_arrives, 'the first messages')
+    peer.call(SetBool, 'fluid_sim_replay/pause', data=False)
+
+
 def test_the_recorded_messages_are_published_in_step_with_the_clock(log):
     with Peer() as peer:
         odometry = peer.collect(Odometry, '/sphere/odom')
         clocks = peer.collect(Clock, '/clock')
-        with replay(log, '--from', '0.2', '--to', '0.6', '--rate', '0.5') as process:
+        options = ('--paused', '--from', '0.2', '--to', '0.6', '--rate', '0.5')
+        with replay(log, *options) as process:
+            play_when_heard(peer, odometry, clocks)
             assert process.wait() == 0
     stamps = [stamp_ns(m) for m in odometry]
     # discovery may cost the first few
@@ -42,7 +54,8 @@ def test_the_recorded_messages_are_published_in_step_with_the_clock(log):
 def test_without_a_recorded_clock_one_is_made(log):
     with Peer() as peer:
         clocks = peer.collect(Clock, '/clock')
-        with replay(log, '--topics', '/sphere/odom') as process:
+        with replay(log, '--paused', '--topics', '/sphere/odom') as process:
+            play_when_heard(peer, clocks)
             assert process.wait() == 0
     assert stamp_ns(clocks[-1]) == 1_000_000_000
 
@@ -68,12 +81,7 @@ def test_a_replay_is_recorded_bytes(log):
         received = []
         peer.node.create_subscription(Odometry, '/sphere/odom', received.append, 1000, raw=True)
         with replay(log, '--paused', '--rate', '2') as process:
-
-            def step_arrives():
-                return peer.call(Trigger, 'fluid_sim_replay/step').success and received
-
-            wait_until(step_arrives, 'the first message')  # discovery may take a while
-            peer.call(SetBool, 'fluid_sim_replay/pause', data=False)
+            play_when_heard(peer, received)
             assert process.wait() == 0
     assert len(received) > 50 and set(received) <= recorded
 
