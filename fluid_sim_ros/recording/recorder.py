@@ -169,6 +169,7 @@ class Recorder:
         run = description.run
         start = {
             'path': str(path.resolve()),
+            'bag': self._options.path.suffix != '.mcap',
             'library': f'fluid_sim_ros {__version__}',
             'chunk_s': self._options.chunk_s,
             'wall_ns': time.time_ns(),

@@ -31,6 +31,7 @@ class LogFile:
     def __init__(self, start: dict[str, Any]) -> None:
         self._chunk_s: float = start['chunk_s']
         self._path = Path(start['path'])
+        self._bag: bool = start['bag']
         self._stream = self._path.open('r+b')
         self._file = McapFile(self._stream)
         self._channels = start['channels']
@@ -93,7 +94,7 @@ class LogFile:
         size = self._stream.tell()
         self._stream.close()
         counts = list(self._file.counts.values())
-        if self._path.parent.name == self._path.stem.rpartition('_')[0]:
+        if self._bag:
             rosbag2.write_metadata(
                 self._path, self._channels, counts, self._file.first_ns, self._file.last_ns
             )

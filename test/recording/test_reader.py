@@ -104,6 +104,18 @@ def test_values_equal_those_of_rosbags_also_as_a_bag(flight, tmp_path):
             assert eval(mine[2]) == eval(other[2], {'np': np})  # noqa: S307 - reprs of numbers
 
 
+def test_a_folder_is_recorded_as_a_bag(tmp_path):
+    fly(tmp_path / 'bag', 'sphere', seconds=0.2, piloted=False)
+    fly(tmp_path / 'a' / 'a_0.mcap', 'sphere', seconds=0.2, piloted=False)
+    assert sorted(p.name for p in (tmp_path / 'bag').iterdir()) == ['bag_0.mcap', 'metadata.yaml']
+    assert [p.name for p in (tmp_path / 'a').iterdir()] == ['a_0.mcap']
+    with AnyReader([tmp_path / 'bag']) as reader:
+        topics = {connection.topic: connection for connection in reader.connections}
+        assert topics['/sphere/odom'].msgcount == 21
+        assert reader.duration == 200_000_001  # rosbags counts the last message's nanosecond
+    assert len(list(open_log(tmp_path / 'bag').messages(['/sphere/odom']))) == 21
+
+
 def test_columns_are_the_fields_of_each_message(flight):
     log = open_log(flight)
     for topic in log.topics.values():
