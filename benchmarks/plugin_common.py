@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 
 Array = NDArray[np.float64]
@@ -104,3 +105,16 @@ def set_medium(
     ]
     addresses = [0 if vector is None else vector.ctypes.data for vector in vectors]
     return bool(native().set_medium(model._address, data._address, *addresses))
+
+
+def refusal(xml: str, plugin: str) -> str:
+    """Return the one line with which ``plugin`` refuses a model; AssertionError if it does not."""
+    try:
+        load(xml)
+    except ValueError as error:
+        line = load_error_line(error)
+    else:
+        raise AssertionError('the model loads')
+    assert '\n' not in line
+    assert line.startswith(plugin), line
+    return line

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from foil_common import AEROSONDE, foil_world, generalized
 from mujoco.batch import Batch
-from plugin_common import config, load
+from plugin_common import config, load, refusal
 
 from fluid_sim_ros.physics.foil import WingParams, wing_wrench
-from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 
 WING = {'span': 1.0, 'chord': 0.2}
@@ -47,12 +46,7 @@ BAD = {
 
 
 def line_of(xml):
-    with pytest.raises(ValueError, match='fluid_sim') as caught:
-        load(xml)
-    line = load_error_line(caught.value)
-    assert '\n' not in line
-    assert line.startswith('fluid_sim.foil: ')
-    return line
+    return refusal(xml, 'fluid_sim.foil: ')
 
 
 @pytest.mark.parametrize('case', BAD)

@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import pytest
-from plugin_common import load
+from plugin_common import load, refusal
 from thruster_common import AEROSONDE, T200, X500, rotor_world
 
-from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 
 ROTOR = {**X500, 'time_constant': 0}
@@ -78,12 +77,7 @@ BAD = {
 
 
 def line_of(xml):
-    with pytest.raises(ValueError, match='fluid_sim') as caught:
-        load(xml)
-    line = load_error_line(caught.value)
-    assert '\n' not in line
-    assert line.startswith('fluid_sim.thruster: ')
-    return line
+    return refusal(xml, 'fluid_sim.thruster: ')
 
 
 @pytest.mark.parametrize('case', BAD)
