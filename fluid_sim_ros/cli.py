@@ -145,13 +145,13 @@ def _scenes(arguments: argparse.Namespace) -> int:
 
 def _demo(rest: Sequence[str]) -> int:
     try:
-        from fluid_sim_ros.ros.demo import main as demo
+        from fluid_sim_ros.demo.main import main as demo
     except ModuleNotFoundError as error:
         raise MissingExtraError(
             f'the demo needs {error.name}, which is not installed; '
             'fluid_sim doctor says what to type'
         ) from None
-    return int(demo(rest, evaluate=cli_logs.evaluate_flight) or 0)
+    return demo(rest)
 
 
 def _doctor(arguments: argparse.Namespace) -> int:

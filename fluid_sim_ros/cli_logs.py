@@ -3,8 +3,6 @@
 import argparse
 import math
 import os
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -305,55 +303,3 @@ def _what_if(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     lines.append(f'Plots: {", ".join(result["plots"])}')
     show(arguments.json, escape('\n'.join(lines)), result)
     return 0
-
-
-#: Simulated time of the demo's still [s]: leaning into the gust.
-_STILL_AT = 12.0
-_STILL_TIMEOUT = 30.0
-
-
-def evaluate_flight(path: Path) -> dict[str, Any]:
-    """Fly the demo's log again and render a still of it; return what the summary says of that."""
-    from fluid_sim_ros.recording.reader import open_log
-    from fluid_sim_ros.recording.resimulate import resimulate
-
-    log = open_log(path)
-    outcome = resimulate(log)
-    different = outcome.difference
-    if log.faults or different is not None or not outcome.compared:
-        raise ConfigError(f'{path}: not repeated: {different or log.faults or "nothing in it"}')
-    still, fault = _still(path)
-    return {
-        'path': str(path),
-        'bytes': log.size,
-        'commands': outcome.commands,
-        'states_resimulated': outcome.compared,
-        'identical': True,
-        'still': str(still) if not fault else None,
-        'lines': [
-            f'Log: {path} ({log.size / 1e6:.1f} MB); flown again from its {outcome.commands} '
-            f'commands, {outcome.compared} states are the same to the last bit',
-            f'Still: {still}' if not fault else f'Still: not rendered ({fault})',
-        ],
-    }
-
-
-def _still(path: Path) -> tuple[Path, str]:
-    """Render in a process of its own, as drivers may end it; return the file and what failed."""
-    out = path.with_name('still.png')
-    out.unlink(missing_ok=True)
-    command = [
-        sys.executable, '-m', 'fluid_sim_ros.cli', 'render', str(path), '--out', str(out),
-        '--at', str(_STILL_AT),
-    ]  # fmt: skip
-    try:
-        done = subprocess.run(
-            command, capture_output=True, text=True, check=False, timeout=_STILL_TIMEOUT,
-            env={'MUJOCO_GL': 'egl', **os.environ},
-        )  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return out, f'no picture within {_STILL_TIMEOUT:g} s'
-    if done.returncode or not out.exists():
-        lines = done.stderr.strip().splitlines() or [f'exit code {done.returncode}']
-        return out, lines[-1]
-    return out, ''

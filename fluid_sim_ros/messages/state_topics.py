@@ -1,7 +1,7 @@
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,7 +60,7 @@ class StateTopic:
     prepare: Callable[[], None] | None = None
 
     def data(self, stamp: memoryview) -> bytes:
-        """Return the message with the numbers of the last ``observe``."""
+        """Return the message with the numbers that were observed last; see ``StateTopics``."""
         if self.prepare is not None:
             self.prepare()
         self.template.stamp[:] = stamp
@@ -76,11 +76,10 @@ class StateTopics:
     Attributes
     ----------
     topics
-        In the order in which they are published.
+        In the order in which they are published: those that need no forces come first, so that
+        a controller can answer the state while the forces are evaluated.
     period
         Greatest common divisor of the topics' periods [steps].
-    stamp
-        View of the stamp that ``observe`` set.
 
     Raises
     ------
@@ -93,18 +92,32 @@ class StateTopics:
         self._simulation = simulation
         self._settings = settings
         self._stamp = templates.StampBytes()
-        self.stamp = self._stamp.view
+        self._forces_known = False
         rows = simulation.observe(forces=True)
         self.topics: list[StateTopic] = []
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
         self._add('/clock', CLOCK, templates.clock(), 'clock.rate', [])
+        self.topics.sort(key=lambda topic: topic.needs_forces)
         self.period = math.gcd(*(topic.period for topic in self.topics))
 
-    def observe(self, topics: Sequence[Any]) -> None:
-        """Evaluate the present state as far as some topics need it (before ``data``)."""
-        self._simulation.observe(any([topic.needs_forces for topic in topics]))
+    def look(self) -> None:
+        """Take the present state as the one that ``data`` speaks of."""
+        self._simulation.observe(forces=False)
         self._stamp.set(self._simulation.time_ns)
+        self._forces_known = False
+
+    def data(self, topic: StateTopic) -> bytes:
+        """
+        Return a topic's message at the state of the last ``look``.
+
+        Forces are evaluated for the first topic that needs them: what was asked for before can be
+        on its way already.
+        """
+        if topic.needs_forces and not self._forces_known:
+            self._simulation.observe(forces=True)
+            self._forces_known = True
+        return topic.data(self._stamp.view)
 
     def _add_vehicle(self, vehicle: Vehicle, row: Array) -> None:
         name, settings = vehicle.name, self._settings

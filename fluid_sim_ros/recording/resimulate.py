@@ -199,8 +199,8 @@ class _Flight:
         self._advance(message)
         if self._observed != message.step:
             self._observed = message.step
-            self._topics.observe(list(self.states.values()))
-        return topic.data(self._topics.stamp)
+            self._topics.look()
+        return self._topics.data(topic)
 
     def _advance(self, message: LogMessage) -> None:
         step = message.step

@@ -56,9 +56,8 @@ class RecordingSink:
         """Record what is due at this step."""
         step = simulation.step_count
         due = [(i, topic) for i, topic in self._topics if step % topic.period == 0]
-        self._states.observe([topic for _, topic in due])
-        stamp = self._states.stamp
-        self.recorder.tick([(i, topic.data(stamp)) for i, topic in due])
+        self._states.look()
+        self.recorder.tick([(i, self._states.data(topic)) for i, topic in due])
 
     def command(self, name: str, data: bytes) -> None:
         """Record a command message before it is applied, by its relative topic name."""

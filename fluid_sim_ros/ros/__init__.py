@@ -1,1 +1,1 @@
-"""The ROS 2 leaf: node, messages, example controllers and the demo."""
+"""The ROS 2 leaf: node, messages and example controllers."""

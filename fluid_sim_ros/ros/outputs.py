@@ -39,7 +39,6 @@ class Topic:
 
     def __post_init__(self) -> None:
         self.name, self.period = self.state.name, self.state.period
-        self.needs_forces = self.state.needs_forces
 
 
 class Outputs:
@@ -100,10 +99,10 @@ class Outputs:
 
     def _publish(self, topics: list[Topic]) -> list[tuple[int, bytes]]:
         """Publish the present numbers; return the messages to record."""
-        self._states.observe(topics)
-        stamp, recorded = self._states.stamp, []
+        self._states.look()
+        recorded = []
         for topic in topics:
-            data = topic.state.data(stamp)
+            data = self._states.data(topic.state)
             if topic.subscribed:
                 topic.publisher.handle.publish_raw(data)
                 topic.published += 1

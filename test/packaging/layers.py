@@ -6,7 +6,7 @@ from pathlib import Path
 PACKAGE = 'fluid_sim_ros'
 LEAVES = ('ros', 'mavlink', 'recording', 'lab')
 # Read by people through a terminal: they may import anything, and nothing imports them.
-FRONT_ENDS = ('cli', 'cli_logs', 'doctor', 'headless')
+FRONT_ENDS = ('cli', 'cli_logs', 'demo', 'doctor', 'headless')
 # May stand in any part.
 COMMON = ('errors', 'frames')
 ROS_MODULES = (

@@ -42,9 +42,9 @@ def test_the_states_are_those_of_the_simulation(tmp_path):
     expected = []
     for step in range(0, 21 * states.period, states.period):
         simulation.step(step - simulation.step_count)
-        states.observe(states.topics)
+        states.look()
         expected += [
-            (f'/{t.name.lstrip("/")}', step, simulation.time_ns, t.data(states.stamp))
+            (f'/{t.name.lstrip("/")}', step, simulation.time_ns, states.data(t))
             for t in states.topics
         ]
     assert messages == expected

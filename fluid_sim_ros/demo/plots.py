@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from fluid_sim_ros.ros.demo_summary import Recording
+from fluid_sim_ros.demo.summary import Recording
 
 _STYLE: Any = {
     'font.size': 10, 'axes.grid': True, 'grid.alpha': 0.3, 'axes.spines.top': False,

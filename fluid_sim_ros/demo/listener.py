@@ -1,0 +1,73 @@
+"""Listens to one topic from outside and keeps its messages raw."""
+
+import time
+
+import rclpy
+from nav_msgs.msg import Odometry
+from rclpy.context import Context
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+
+from fluid_sim_ros.ros.inputs import PolledGroup
+
+#: Messages that the middleware keeps between two calls of ``take``.
+_DEPTH = 5000
+
+
+class Listener:
+    """
+    A ROS node, in a context of its own, that takes odometry.
+
+    Parameters
+    ----------
+    domain
+        ROS_DOMAIN_ID.
+    topic
+        Topic of nav_msgs/Odometry.
+
+    Attributes
+    ----------
+    messages
+        What was heard, as CDR bytes.
+    sent_ns
+        When each was published, wall clock [ns].
+
+    """
+
+    def __init__(self, domain: int, topic: str) -> None:
+        self._context = Context()
+        rclpy.init(
+            args=[], context=self._context, domain_id=domain,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )  # fmt: skip
+        self._node = rclpy.create_node('demo_listener', context=self._context)
+        self._subscription = self._node.create_subscription(
+            Odometry, topic, lambda _: None,
+            QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.RELIABLE),
+            callback_group=PolledGroup(), raw=True,
+        )  # fmt: skip
+        self.messages: list[bytes] = []
+        self.sent_ns: list[int] = []
+
+    def is_alone(self) -> bool:
+        """Return whether no other node is in the domain, as far as is known."""
+        return len(self._node.get_node_names()) <= 1
+
+    def take(self, pause: float) -> bool:
+        """
+        Sleep for ``pause`` [s], then take what has arrived; True when something had.
+
+        The messages of the pause wait in the middleware: a wake-up for each would take
+        processor time from those who are listened to.
+        """
+        time.sleep(pause)
+        before = len(self.messages)
+        while got := self._subscription.handle.take_message(Odometry, True):
+            self.messages.append(got[0])
+            self.sent_ns.append(got[1]['source_timestamp'])
+        return len(self.messages) > before
+
+    def close(self) -> None:
+        """Leave the ROS graph."""
+        self._node.destroy_node()
+        rclpy.shutdown(context=self._context)
