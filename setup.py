@@ -120,6 +120,7 @@ RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
 RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
 TEST = [
+    *MAVLINK,
     *RENDER,
     *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', 'pyarrow>=16',
     *CHARTS,

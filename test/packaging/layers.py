@@ -20,6 +20,7 @@ FOREIGN = {
     'control': ('mujoco', *ROS_MODULES),
     'core': ROS_MODULES,
     'lab': ROS_MODULES,
+    'mavlink': ROS_MODULES,
     'recording': ROS_MODULES,
 }
 

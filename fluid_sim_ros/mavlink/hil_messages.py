@@ -1,0 +1,250 @@
+"""
+The MAVLink 2 messages between a simulator and PX4: their bytes, their bits and their units.
+
+Body axes are FRD, world axes NED. The codec is pymavlink's ``common`` dialect; see
+https://mavlink.io/en/messages/common.html for the fields.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from pymavlink.dialects.v20 import common as dialect
+
+from fluid_sim_ros.mavlink.ned import Quaternion, Vector3
+
+#: Bits of HIL_SENSOR.fields_updated; PX4 takes a group only with all of its bits.
+ACCELEROMETER, GYRO, MAGNETOMETER = 0x007, 0x038, 0x1C0
+BAROMETER = 0x1A00  # absolute pressure, pressure altitude, temperature
+AIRSPEED = 0x400  # differential pressure
+
+#: MAV_ESTIMATOR_TYPE_VISION, MAV_FRAME_LOCAL_NED, MAV_FRAME_BODY_FRD
+_VISION, _LOCAL_NED, _BODY_FRD = 2, 1, 12
+#: A magnetic or air data value that the message has a field for, but no new reading.
+_ABSENT: Vector3 = (0.0, 0.0, 0.0)
+_GCS, _NOT_AN_AUTOPILOT = 6, 8  # MAV_TYPE_GCS, MAV_AUTOPILOT_INVALID
+_COURSE_UNKNOWN = 65535  # [cdeg]
+_STANDARD_GRAVITY = 9.80665  # [m/s^2]
+#: Upper triangle of a 6x6 covariance: places of its diagonal.
+_DIAGONAL = (0, 6, 11, 15, 18, 20)
+#: First byte of a message of MAVLink 1.
+MAVLINK1 = 0xFE
+#: Message ids.
+_ACTUATORS, _OLD_CONTROLS = 93, 91
+_LONGEST_MESSAGE = 280  # [bytes], with signature
+
+
+@dataclass
+class SensorReadings:
+    """
+    What one HIL_SENSOR says; groups without a new reading are None.
+
+    Attributes
+    ----------
+    specific_force, gyro
+        [m/s^2] and [rad/s], FRD.
+    magnetic_field
+        [G], FRD.
+    pressure, pressure_altitude, temperature
+        Absolute pressure [hPa], the altitude [m] that the standard atmosphere has it at, and
+        temperature [degC].
+    differential_pressure
+        Dynamic pressure of the air [hPa].
+
+    """
+
+    specific_force: Vector3
+    gyro: Vector3
+    magnetic_field: Vector3 | None = None
+    pressure: float | None = None
+    pressure_altitude: float = 0.0
+    temperature: float = 0.0
+    differential_pressure: float | None = None
+
+
+@dataclass
+class Actuators:
+    """A HIL_ACTUATOR_CONTROLS: time [us], 16 outputs, armed, lockstep."""
+
+    time_us: int
+    controls: Sequence[float]
+    armed: bool
+    lockstep: bool
+
+
+@dataclass
+class Received:
+    """What a portion of the stream held."""
+
+    actuators: list[Actuators] = field(default_factory=list)
+    messages: int = 0
+    faults: list[str] = field(default_factory=list)
+
+
+class HilCodec:
+    """
+    Packs the simulator's messages and reads the autopilot's, for one connection.
+
+    Parameters
+    ----------
+    system, component
+        MAVLink ids of the sender.
+
+    """
+
+    def __init__(self, system: int = 1, component: int = 51) -> None:
+        self._mav = dialect.MAVLink(None, srcSystem=system, srcComponent=component)
+        self._mav.robust_parsing = True
+
+    def _pack(self, message: dialect.MAVLink_message) -> bytes:
+        data: bytes = message.pack(self._mav)
+        self._mav.seq = (self._mav.seq + 1) % 256
+        return data
+
+    # ---- to the autopilot ------------------------------------------------------------------
+
+    def sensors(self, time_us: int, readings: SensorReadings) -> bytes:
+        """Return HIL_SENSOR with the bits of the groups that are new."""
+        fields = ACCELEROMETER | GYRO
+        field_frd, pressure = readings.magnetic_field, readings.pressure
+        differential = readings.differential_pressure
+        if field_frd is None:
+            field_frd = _ABSENT
+        else:
+            fields |= MAGNETOMETER
+        if pressure is not None:
+            fields |= BAROMETER
+        if differential is not None:
+            fields |= AIRSPEED
+        return self._pack(
+            dialect.MAVLink_hil_sensor_message(
+                time_us, *readings.specific_force, *readings.gyro, *field_frd,
+                pressure or 0.0, differential or 0.0, readings.pressure_altitude,
+                readings.temperature, fields, 0,
+            )
+        )  # fmt: skip
+
+    def gps(
+        self,
+        time_us: int,
+        latitude: float,
+        longitude: float,
+        altitude: float,
+        velocity_ned: Vector3,
+        eph: int = 30,
+        epv: int = 40,
+    ) -> bytes:
+        """Return HIL_GPS of a 3D fix: [deg], [deg], [m above MSL], [m/s]; eph, epv [cm]."""
+        north, east, down = (_int16(100 * v) for v in velocity_ned)
+        speed = min(round(100 * math.hypot(*velocity_ned[:2])), 65534)
+        course = math.degrees(math.atan2(velocity_ned[1], velocity_ned[0])) % 360
+        return self._pack(
+            dialect.MAVLink_hil_gps_message(
+                time_us, 3, round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
+                eph, epv, speed, north, east, down,
+                round(100 * course) % 36000 if speed else _COURSE_UNKNOWN, 12,
+            )
+        )  # fmt: skip
+
+    def truth(
+        self,
+        time_us: int,
+        attitude: Quaternion,
+        rates: Vector3,
+        geodetic: Vector3,
+        velocity_ned: Vector3,
+        airspeed: float,
+        specific_force: Vector3,
+    ) -> bytes:
+        """
+        Return HIL_STATE_QUATERNION, the true state for the autopilot's log.
+
+        Latitude, longitude [deg] and altitude [m]; [m/s] become cm/s and m/s^2 become thousandths
+        of g, saturated at their 16 bits.
+        """
+        latitude, longitude, altitude = geodetic
+        air = min(max(round(100 * airspeed), 0), 65535)
+        return self._pack(
+            dialect.MAVLink_hil_state_quaternion_message(
+                time_us, list(attitude), *rates,
+                round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
+                *(_int16(100 * v) for v in velocity_ned), air, air,
+                *(_int16(1000 * a / _STANDARD_GRAVITY) for a in specific_force),
+            )
+        )  # fmt: skip
+
+    def odometry(
+        self,
+        time_us: int,
+        position_ned: Vector3,
+        attitude: Quaternion,
+        velocity_frd: Vector3,
+        rates: Vector3,
+        pose_variance: Sequence[float],
+        velocity_variance: Sequence[float],
+    ) -> bytes:
+        """Return ODOMETRY as of a vision system; variances of six numbers each."""
+        return self._pack(
+            dialect.MAVLink_odometry_message(
+                time_us, _LOCAL_NED, _BODY_FRD, *position_ned, list(attitude), *velocity_frd,
+                *rates, _triangle(pose_variance), _triangle(velocity_variance),
+                0, _VISION, 100,
+            )
+        )  # fmt: skip
+
+    def heartbeat(self) -> bytes:
+        """Return the simulator's HEARTBEAT."""
+        return self._pack(dialect.MAVLink_heartbeat_message(_GCS, _NOT_AN_AUTOPILOT, 0, 0, 0, 3))
+
+    def rc_channels(self, time_ms: int, channels: Sequence[int]) -> bytes:
+        """Return RC_CHANNELS: the sticks of a radio control, pulse widths [us], at most 18."""
+        pulses = [*channels, *[65535] * (18 - len(channels))]
+        return self._pack(
+            dialect.MAVLink_rc_channels_message(time_ms, len(channels), *pulses, 255)
+        )
+
+    # ---- from the autopilot ----------------------------------------------------------------
+
+    def receive(self, data: bytes) -> Received:
+        """Read a portion of the stream; an unfinished message waits for the next portion."""
+        received, mav = Received(), self._mav
+        for message in mav.parse_buffer(data) or ():
+            kind = message.get_msgId()
+            if kind == _ACTUATORS:
+                received.messages += 1
+                received.actuators.append(
+                    Actuators(
+                        message.time_usec, message.controls,
+                        bool(message.mode & 128), bool(message.flags & 1),
+                    )
+                )  # fmt: skip
+            elif kind == _OLD_CONTROLS:
+                received.faults.append('HIL_CONTROLS: this PX4 is too old; it needs 1.9 or later')
+            elif kind < 0:
+                received.faults.append(_fault(message))
+            else:
+                received.messages += 1
+        # the parser keeps what it has read until it has read all
+        if mav.buf_index:
+            del mav.buf[: mav.buf_index]
+            mav.buf_index = 0
+        return received
+
+
+def _fault(message: dialect.MAVLink_message) -> str:
+    data = message.data if message.get_type() == 'BAD_DATA' else b''
+    if data[:1] == bytes([MAVLINK1]):
+        return 'MAVLink 1: this autopilot is too old, or these are other bytes'
+    return f'{len(data)} bytes are no MAVLink message'
+
+
+def _int16(value: float) -> int:
+    return min(max(round(value), -32768), 32767)
+
+
+def _triangle(variances: Sequence[float]) -> list[float]:
+    """Return the upper triangle of a diagonal 6x6 covariance, row by row."""
+    triangle = [0.0] * 21
+    for place, variance in zip(_DIAGONAL, variances, strict=True):
+        triangle[place] = variance
+    return triangle

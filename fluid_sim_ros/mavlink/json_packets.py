@@ -1,0 +1,102 @@
+"""
+ArduPilot's JSON interface: servo packets in, one line of JSON out, each a UDP datagram.
+
+Servo packet, little endian: magic (u16), frame rate [Hz] (u16), frame count (u32), pulse widths
+[us] (u16, 16 or 32 of them). The reader at the other end searches the text for its keys one by
+one, so there are no spaces, and ``velocity`` stands before ``velocity_wind``.
+"""
+
+import struct
+from dataclasses import dataclass
+
+from fluid_sim_ros.mavlink.ned import Quaternion, Vector3, euler
+
+_HEAD = struct.Struct('<HHI')
+_PULSES = {18458: struct.Struct('<16H'), 29569: struct.Struct('<32H')}
+#: No servo packet is longer [bytes].
+LONGEST_PACKET = _HEAD.size + 2 * 32
+#: A step of 0.1 s or more is a fault for ArduPilot itself; beyond the highest rate pulses are
+#: no longer servo commands [Hz].
+RATES = range(11, 8001)
+
+
+@dataclass(frozen=True)
+class ServoPacket:
+    """One servo packet: ``rate`` [Hz], ``count`` of the frame, ``pulses`` [us]."""
+
+    rate: int
+    count: int
+    pulses: tuple[int, ...]
+
+
+def read_servo_packet(data: bytes) -> ServoPacket | str:
+    """Return the packet that the bytes hold, or what is wrong with them."""
+    if len(data) < _HEAD.size:
+        return f'{len(data)} bytes are too short for a servo packet'
+    magic, rate, count = _HEAD.unpack_from(data)
+    pulses = _PULSES.get(magic)
+    if pulses is None:
+        return f'magic {magic} is not that of a servo packet: 18458 or 29569 (ArduPilot 4.3 on)'
+    if len(data) != _HEAD.size + pulses.size:
+        return f'{len(data)} bytes, but magic {magic} has {_HEAD.size + pulses.size}'
+    if rate not in RATES:
+        return f'frame rate {rate} Hz is not from {RATES.start} to {RATES.stop - 1}'
+    return ServoPacket(rate, count, pulses.unpack_from(data, _HEAD.size))
+
+
+@dataclass(frozen=True)
+class JsonState:
+    """
+    What one reply says.
+
+    Attributes
+    ----------
+    time_ns
+        Time of the state [ns].
+    gyro, specific_force
+        Angular velocity [rad/s] and specific force [m/s^2], body axes (FRD).
+    position, velocity
+        From home [m], [m/s], NED.
+    attitude
+        Rotation FRD to NED, scalar first.
+    wind
+        Velocity of the air [m/s], NED, the direction that it moves to, or None.
+    airspeed
+        Speed through the air [m/s], or None.
+    range_m
+        Distance that the rangefinder measures [m], or None.
+
+    """
+
+    time_ns: int
+    gyro: Vector3
+    specific_force: Vector3
+    position: Vector3
+    velocity: Vector3
+    attitude: Quaternion
+    wind: Vector3 | None = None
+    airspeed: float | None = None
+    range_m: float | None = None
+
+
+_STATE = (
+    '\n{"timestamp":%.9f,"imu":{"gyro":[%.9g,%.9g,%.9g],"accel_body":[%.9g,%.9g,%.9g]},'
+    '"position":[%.12g,%.12g,%.12g],"attitude":[%.9g,%.9g,%.9g],'
+    '"quaternion":[%.9g,%.9g,%.9g,%.9g],"velocity":[%.9g,%.9g,%.9g]'
+)
+
+
+def write_state(state: JsonState) -> bytes:
+    """Return the reply that says a state."""
+    text = _STATE % (
+        state.time_ns * 1e-9, *state.gyro, *state.specific_force, *state.position,
+        *euler(state.attitude), *state.attitude, *state.velocity,
+    )  # fmt: skip
+    if state.wind is not None:
+        north, east, down = state.wind
+        text += f',"velocity_wind":[{north:.9g},{east:.9g},{down:.9g}]'
+    if state.airspeed is not None:
+        text += f',"airspeed":{state.airspeed:.9g}'
+    if state.range_m is not None:
+        text += f',"rng_1":{state.range_m:.9g}'
+    return (text + '}\n').encode()
