@@ -134,22 +134,30 @@ class Commands:
 
     def _thrust_stamped(self, vehicle: Vehicle, data: bytes, scale: Array | None) -> Effect:
         command = read_joint_state(data)
-        settings, now_ns = self._settings, self._simulation.time_ns
-        if settings['pacing'] == 'lockstep' and settings['lockstep.match'] == 'stamp':
-            if command.stamp_ns > now_ns:
-                raise CommandError(
-                    f'stamp {command.stamp_ns} ns is ahead of the simulation '
-                    f'({now_ns} ns); answer an odometry with its own stamp'
-                )
-            if command.stamp_ns < now_ns:  # a second answer to a state that was answered
-                return Effect(answers=False)
+        if not self._answers(command.stamp_ns):
+            return Effect(answers=False)
         values = command.effort
         if command.names:
             values = _by_name(vehicle, command.names, values)
         return self._thrust(vehicle, values, scale)
 
+    def _answers(self, stamp_ns: int) -> bool:
+        """Return whether a stamp is that of the present state; only lockstep by stamp asks."""
+        settings, now_ns = self._settings, self._simulation.time_ns
+        if settings['pacing'] != 'lockstep' or settings['lockstep.match'] != 'stamp':
+            return True
+        if stamp_ns > now_ns:
+            raise CommandError(
+                f'stamp {stamp_ns} ns is ahead of the simulation '
+                f'({now_ns} ns); answer an odometry with its own stamp'
+            )
+        return stamp_ns == now_ns  # older: a second answer to a state that was answered
+
     def _joints(self, vehicle: Vehicle, data: bytes) -> Effect:
         command = read_joint_state(data)
+        # a stamp of 0 means now, as for wind and current
+        if command.stamp_ns and not self._answers(command.stamp_ns):
+            return Effect(answers=False)
         values = command.position if len(command.position) else command.effort
         if not command.names:
             return Effect(saturated=self._simulation.set_joints(vehicle.name, values.tolist()))

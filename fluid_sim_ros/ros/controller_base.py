@@ -1,5 +1,5 @@
 """
-What the example controllers share: odometry in, thrusts out, one answer to each state.
+What the example controllers share: odometry in, commands out, one answer to each state.
 
 The main thread waits on the subscriptions itself and takes them raw, which answers a state in a
 fraction of the time of an executor's spin; a second thread runs the executor for the parameter
@@ -10,10 +10,10 @@ which state it belongs to.
 import math
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from geometry_msgs.msg import PoseStamped
-from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
@@ -25,25 +25,60 @@ from sensor_msgs.msg import JointState
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
-from fluid_sim_ros.errors import CommandError
-from fluid_sim_ros.messages.templates import Template
+from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.inputs import PolledGroup
-from fluid_sim_ros.ros.states import State, read_odometry
+from fluid_sim_ros.ros.state_source import StateSource
+from fluid_sim_ros.ros.states import State
 from fluid_sim_ros.ros.vehicle_plant import plant_of
 
 #: Longest wait before signals are looked at again [ns].
 _WAIT_NS = 50_000_000
-# The stamp follows the CDR header in odometry and answer alike.
-_STAMP = slice(4, 12)
+_RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+#: Members of sensor_msgs/JointState after its header.
+_LISTS = ('name', 'position', 'velocity', 'effort')
 
 
-def thrust_template(thrusters: int) -> Template:
-    """Return sensor_msgs/JointState with one block: the efforts; its other lists are empty."""
+class Answer(NamedTuple):
+    """
+    The commands that answer a state.
+
+    Attributes
+    ----------
+    thrusts
+        [N], one per thruster.
+    joints
+        One per joint actuator, in its own unit; empty for a vehicle without.
+
+    """
+
+    thrusts: Sequence[float]
+    joints: Sequence[float] = ()
+
+
+def command_template(member: str, count: int) -> Template:
+    """Return sensor_msgs/JointState with one block: its list ``member``; the others are empty."""
     template = Template().string('')
-    for _ in ('name', 'position', 'velocity'):
-        template.uint32(0)
-    return template.uint32(thrusters).doubles(thrusters).finish()
+    for name in _LISTS:
+        template.uint32(count if name == member else 0)
+        if name == member:
+            template.doubles(count)
+    return template.finish()
+
+
+class _Commands:
+    """Publishes commands as one list of a JointState, with a stamp."""
+
+    def __init__(self, node: Node, topic: str, member: str, count: int) -> None:
+        self._template = command_template(member, count)
+        self._pack = struct.Struct(f'<{count}d').pack_into
+        self._publisher = node.create_publisher(JointState, topic, _RELIABLE)
+
+    def publish(self, stamp: memoryview, values: Sequence[float]) -> None:
+        """Send the values as the answer to the state of a stamp."""
+        self._template.stamp[:] = stamp
+        self._pack(self._template.blocks[0], 0, *values)
+        self._publisher.handle.publish_raw(self._template.bytes())
 
 
 class ControllerNode(Node, ABC):
@@ -51,7 +86,8 @@ class ControllerNode(Node, ABC):
     A controller of one vehicle.
 
     Subscribes ``<vehicle>/odom`` and ``<vehicle>/cmd/waypoint`` (geometry_msgs/PoseStamped, frame
-    ``map`` or ``<vehicle>/odom``), publishes ``<vehicle>/cmd/thrust_stamped``.
+    ``map`` or ``<vehicle>/odom``), publishes ``<vehicle>/cmd/thrust_stamped`` and, for a vehicle
+    with joint actuators, ``<vehicle>/cmd/joints``, both with the stamp of the odometry.
 
     Parameters
     ----------
@@ -62,7 +98,9 @@ class ControllerNode(Node, ABC):
     gains
         Class of the gains; each of its fields becomes a parameter ``gains.<field>``.
     own
-        Parameters of this controller beside the common ones.
+        Parameters of this controller beside the common ones, or in their place.
+    medium
+        ``wind`` or ``current`` to have its velocity at the vehicle in each state (`StateSource`).
 
     Raises
     ------
@@ -77,6 +115,7 @@ class ControllerNode(Node, ABC):
         scene: str,
         gains: type[Gains],
         own: Mapping[str, parameters.Declared] | None = None,
+        medium: str = '',
     ) -> None:
         super().__init__(name)
         self._table = parameters.table_of(gains, own or {})
@@ -90,37 +129,32 @@ class ControllerNode(Node, ABC):
             radius=parameters.number(self, 'waypoint_radius'),
         )
         self.read_live()
-        self._create_topics()
+        self._create_topics(medium)
         self._ending = False
         self._last_stamp_ns = -1
-        self._answered = 0
+        self._stamp = StampBytes()
 
-    def _create_topics(self) -> None:
-        vehicle, reliable = self.vehicle.name, ReliabilityPolicy.RELIABLE
-        self._frames = ('', 'map', f'{vehicle}/odom')
-        group = PolledGroup()
-        self._odometry = self.create_subscription(
-            Odometry, f'{vehicle}/odom', lambda _: None,
-            QoSProfile(depth=10, reliability=reliable), callback_group=group, raw=True,
-        )  # fmt: skip
+    def _create_topics(self, medium: str) -> None:
+        vehicle, name = self.vehicle, self.vehicle.name
+        self._frames = ('', 'map', f'{name}/odom')
+        self._states = StateSource(self, name, medium)
         self._waypoint = self.create_subscription(
-            PoseStamped, f'{vehicle}/cmd/waypoint', lambda _: None,
-            QoSProfile(depth=1, reliability=reliable), callback_group=group, raw=True,
+            PoseStamped, f'{name}/cmd/waypoint', lambda _: None,
+            QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE),
+            callback_group=PolledGroup(), raw=True,
         )  # fmt: skip
-        self._publisher = self.create_publisher(
-            JointState, f'{vehicle}/cmd/thrust_stamped',
-            QoSProfile(depth=10, reliability=reliable),
-        )  # fmt: skip
-        count = len(self.vehicle.thrusters)
-        self._template = thrust_template(count)
-        self._pack = struct.Struct(f'<{count}d').pack_into
-        self._wait_set = _rclpy.WaitSet(2, 0, 0, 0, 0, 0, self.context.handle)
+        self._thrusts = _Commands(
+            self, f'{name}/cmd/thrust_stamped', 'effort', len(vehicle.thrusters)
+        )
+        self._joints = None
+        if vehicle.joints:
+            self._joints = _Commands(self, f'{name}/cmd/joints', 'position', len(vehicle.joints))
 
     # ---- what a controller adds --------------------------------------------------------------
 
     @abstractmethod
-    def answer(self, time: float, state: State) -> list[float]:
-        """Return the thrusts [N] that answer a state; ``time`` is its stamp [s]."""
+    def answer(self, time: float, state: State) -> Answer:
+        """Return the commands that answer a state; ``time`` is its stamp [s]."""
 
     @abstractmethod
     def restart(self) -> None:
@@ -135,18 +169,19 @@ class ControllerNode(Node, ABC):
         """Answer states until ``end``."""
         self.get_logger().info(
             f"vehicle '{self.vehicle.name}': {self.plant.mass:.2f} kg, "
-            f'{len(self.vehicle.thrusters)} thrusters; waiting for {self._odometry.topic_name}'
+            f'{len(self.vehicle.thrusters)} thrusters; waiting for {self._states.topic}'
         )
-        odometry, waypoint = self._odometry.handle, self._waypoint.handle
-        wait_set = self._wait_set
+        waypoint = self._waypoint.handle
+        handles = [*self._states.handles, waypoint]
+        wait_set = _rclpy.WaitSet(len(handles), 0, 0, 0, 0, 0, self.context.handle)
         while not self._ending:
             wait_set.clear_entities()
-            wait_set.add_subscription(odometry)
-            wait_set.add_subscription(waypoint)
+            for handle in handles:
+                wait_set.add_subscription(handle)
             wait_set.wait(_WAIT_NS)
             # every state is answered, in order, so that the same states get the same answers
-            while got := odometry.take_message(Odometry, True):
-                self._on_odometry(got[0])
+            for state in self._states.take():
+                self._on_state(state)
             if got := waypoint.take_message(PoseStamped, True):
                 self._on_waypoint(got[0])
 
@@ -157,12 +192,7 @@ class ControllerNode(Node, ABC):
         """Have ``run`` return; safe in a signal handler and in any thread."""
         self._ending = True
 
-    def _on_odometry(self, data: bytes) -> None:
-        try:
-            state = read_odometry(data)
-        except CommandError as error:
-            self.get_logger().error(str(error), throttle_duration_sec=1.0)
-            return
+    def _on_state(self, state: State) -> None:
         if not state.is_sound():
             # one such number would stay in the controller's integrators for ever
             self.get_logger().error(
@@ -175,11 +205,11 @@ class ControllerNode(Node, ABC):
             self.restart()
             self.get_logger().info('time went back: starting anew')
         self._last_stamp_ns = state.stamp_ns
-        thrusts = self.answer(state.stamp_ns * 1e-9, state)
-        template = self._template
-        template.stamp[:] = data[_STAMP]
-        self._pack(template.blocks[0], 0, *thrusts)
-        self._publisher.handle.publish_raw(template.bytes())
+        thrusts, joints = self.answer(state.stamp_ns * 1e-9, state)
+        self._stamp.set(state.stamp_ns)
+        if self._joints is not None:
+            self._joints.publish(self._stamp.view, joints)
+        self._thrusts.publish(self._stamp.view, thrusts)
 
     def _on_waypoint(self, data: bytes) -> None:
         message = deserialize_message(data, PoseStamped)

@@ -33,6 +33,8 @@ _MESSAGES: dict[str, type] = {
     TWIST: TwistStamped,
 }  # fmt: skip
 
+#: Topics of which every message counts in lockstep by count.
+_COUNTED = ('/cmd/thrust', '/cmd/joints')
 #: Wall time between two looks at which topics have publishers [s].
 REFRESH_PERIOD = 0.1
 
@@ -117,7 +119,7 @@ class Inputs:
 
     def _add(self, topic: CommandTopic) -> None:
         message = _MESSAGES[topic.type]
-        keep_all = self._by_count and topic.type == MULTI_ARRAY
+        keep_all = self._by_count and topic.name.endswith(_COUNTED)
         history = HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST
         subscription = self._node.create_subscription(
             message, topic.name, lambda _: None,
@@ -131,7 +133,10 @@ class Inputs:
         wanted = [topic for topic in wait_for if topic]
         if not wanted:
             leaf = 'thrust' if self._by_count else 'thrust_stamped'
-            wanted = [f'{v.name}/cmd/{leaf}' for v in simulation.vehicles.values() if v.thrusters]
+            for vehicle in simulation.vehicles.values():
+                if vehicle.thrusters:
+                    wanted.append(f'{vehicle.name}/cmd/{leaf}')
+                    wanted += [f'{vehicle.name}/cmd/joints'] if vehicle.joints else []
         by_topic = {entry.topic: entry for entry in self.inputs}
         for topic in wanted:
             entry = by_topic.get(topic.removesuffix('?'))

@@ -87,7 +87,8 @@ TABLE: dict[str, Declared] = {
     'lockstep.wait_for': Declared(
         [''],
         'topics that must answer; a trailing ? marks one that counts only while somebody '
-        'publishes it; empty = the thrust topic of every vehicle that has thrusters',
+        'publishes it; empty = the thrust topic of every vehicle that has thrusters, and its '
+        'cmd/joints if it has joint actuators too',
     ),
     'lockstep.on_timeout': Declared(
         'hold',

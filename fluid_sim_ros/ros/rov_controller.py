@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
 from fluid_sim_ros.ros import controller_parameters as parameters
-from fluid_sim_ros.ros.controller_base import ControllerNode
+from fluid_sim_ros.ros.controller_base import Answer, ControllerNode
 from fluid_sim_ros.ros.controller_parameters import Declared
 from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.states import State
@@ -51,7 +51,7 @@ class RovController(ControllerNode):
         """Take the depth and heading to hold from the next state."""
         self._first = None
 
-    def answer(self, time: float, state: State) -> list[float]:
+    def answer(self, time: float, state: State) -> Answer:
         """Return the thrusts [N] that hold what is wanted."""
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._first is None:
@@ -64,10 +64,11 @@ class RovController(ControllerNode):
         if waypoint is not None:
             place = waypoint.position_w[:2]
             depth, heading = -waypoint.position_w[2], waypoint.yaw
-        return self._law.step(
+        thrusts = self._law.step(
             time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
             depth, heading, speed_h=(surge, sway), place_w=place,
         )  # fmt: skip
+        return Answer(thrusts)
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -25,6 +25,8 @@ class State(NamedTuple):
         Pose in the odometry's frame (the world's axes): [m]; body to world, scalar first.
     velocity_b, omega_b
         Twist, base_link axes [m/s], [rad/s].
+    medium_w
+        Velocity of the medium at the vehicle [m/s], world axes; zero where nobody asked for it.
 
     """
 
@@ -33,12 +35,13 @@ class State(NamedTuple):
     quat_wb_wxyz: tuple[float, ...]
     velocity_b: tuple[float, ...]
     omega_b: tuple[float, ...]
+    medium_w: tuple[float, ...] = (0.0, 0.0, 0.0)
 
     def is_sound(self) -> bool:
         """Return whether every number is finite and the quaternion is near a unit one."""
-        _, position, quat, velocity, omega = self
+        _, position, quat, velocity, omega, medium = self
         w, x, y, z = quat
-        finite = math.isfinite(sum(position) + sum(velocity) + sum(omega))
+        finite = math.isfinite(sum(position) + sum(velocity) + sum(omega) + sum(medium))
         return finite and 0.5 < w * w + x * x + y * y + z * z < 2.0
 
 

@@ -172,3 +172,65 @@ def test_every_one_of_a_burst_of_counted_commands_is_taken_once():
                 if stamp:
                     assert effort == pytest.approx(5.0 + 1e-4 * (stamp // period - 1), abs=1e-12)
             assert process.alive
+
+
+FINNED = """<mujoco><option timestep=".002" gravity="0 0 0" density="1000"/><worldbody>
+<body name="fish"><freejoint/><geom type="ellipsoid" size=".3 .1 .1" fluidshape="ellipsoid"/>
+<site name="screw" pos="-.3 0 0"/>
+<body name="tail" pos="-.3 0 0"><joint name="fin" axis="0 0 1" damping=".1"/>
+<geom type="ellipsoid" size=".1 .01 .1" fluidshape="ellipsoid"/></body></body></worldbody>
+<actuator><motor name="screw" site="screw" gear="1 0 0 0 0 0"/>
+<position name="fin" joint="fin" kp="2"/></actuator></mujoco>"""
+
+
+def swim(path, **parameters):
+    """Return the odometry of half a second in which thrust and fin answer each state."""
+    with Peer() as peer:
+        states = []
+        screw = peer.node.create_publisher(JointState, 'fish/cmd/thrust_stamped', 10)
+        fin = peer.node.create_publisher(JointState, 'fish/cmd/joints', 10)
+
+        def answer(message):
+            states.append(message)
+            x = message.pose.pose.position.x
+            both = JointState(effort=[20.0 - x]), JointState(position=[0.4 - 0.3 * x])
+            for publisher, command in zip((screw, fin), both, strict=True):
+                command.header.stamp = message.header.stamp
+                publisher.publish(command)
+
+        peer.node.create_subscription(Odometry, 'fish/odom', answer, 10)
+        with node(scene=path, pacing='lockstep', duration=0.5, **parameters) as process:
+            assert process.wait() == 0
+    by_stamp = {stamp_ns(m): m for m in states}
+    return numbers([by_stamp[stamp] for stamp in sorted(by_stamp)][:50])
+
+
+def test_thrust_and_joints_of_one_state_are_both_waited_for(tmp_path):
+    path = tmp_path / 'fish.xml'
+    path.write_text(FINNED)
+    first, second = swim(path), swim(path)
+    assert len(first) == 50
+    np.testing.assert_array_equal(first, second)
+    assert abs(first[-1, 5]) > 1e-3  # the fin turned it
+    with node(scene=path, pacing='lockstep') as process, Peer() as peer:
+        peer.watch_diagnostics()
+        peer.publisher(JointState, 'fish/cmd/thrust_stamped').publish(JointState(effort=[1.0]))
+        wait_until(
+            lambda: 'no answer on fish/cmd/joints' in peer.diagnostics.get('loop', (0, ''))[1],
+            'the report that the joints are missing',
+        )
+        assert process.alive and peer.diagnostics['loop'][2]['step'] == '0'
+        # by stamp, a joint command has to answer as a thrust does; 0 means now
+        joints = peer.publisher(JointState, 'fish/cmd/joints')
+        ahead = JointState(position=[0.1])
+        ahead.header.stamp.sec = 7
+        joints.publish(ahead)
+
+        def last_error():
+            values = peer.diagnostics.get('commands', (0, '', {}))[2]
+            return values.get('fish/cmd/joints last error', '')
+
+        wait_until(lambda: 'ahead of the simulation' in last_error(), 'the refusal')
+        assert peer.diagnostics['loop'][2]['step'] == '0'
+        joints.publish(JointState(position=[0.1]))
+        wait_until(lambda: peer.diagnostics['loop'][2]['step'] != '0', 'the first step')

@@ -1,0 +1,106 @@
+"""Where a controller's states come from: odometry, and the medium's velocity where asked for."""
+
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+from fluid_sim_ros.errors import CommandError
+from fluid_sim_ros.messages.cdr import read_stamped_pair
+from fluid_sim_ros.ros.inputs import PolledGroup
+from fluid_sim_ros.ros.states import State, read_odometry
+
+_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+
+
+class StateSource:
+    """
+    Every state of a vehicle, once and in order.
+
+    Parameters
+    ----------
+    node
+        Owner of the subscriptions; what is malformed is logged on it.
+    vehicle
+        Vehicle name.
+    medium
+        ``wind`` or ``current``: a state waits for the message of its own stamp on
+        ``<vehicle>/medium/<medium>`` and carries its velocity; '' for odometry alone.
+
+    """
+
+    def __init__(self, node: Node, vehicle: str, medium: str = '') -> None:
+        self._log = node.get_logger()
+        group = PolledGroup()
+
+        def subscribe(message: type, topic: str) -> Any:
+            return node.create_subscription(
+                message, topic, lambda _: None, _QOS, callback_group=group, raw=True
+            )
+
+        self._odometry = subscribe(Odometry, f'{vehicle}/odom')
+        self._medium = subscribe(TwistStamped, f'{vehicle}/medium/{medium}') if medium else None
+        self._states: deque[State] = deque(maxlen=_QOS.depth)
+        self._velocities: deque[tuple[int, tuple[float, ...]]] = deque(maxlen=_QOS.depth)
+
+    @property
+    def topic(self) -> str:
+        """Name of the odometry topic."""
+        return str(self._odometry.topic_name)
+
+    @property
+    def handles(self) -> list[Any]:
+        """Subscriptions to wait for."""
+        both = (self._odometry, self._medium)
+        return [subscription.handle for subscription in both if subscription is not None]
+
+    def take(self) -> Iterator[State]:
+        """Yield the states that are complete now."""
+        while got := self._odometry.handle.take_message(Odometry, True):
+            try:
+                state = read_odometry(got[0])
+            except CommandError as error:
+                self._report(str(error))
+                continue
+            if self._medium is None:
+                yield state
+            else:
+                self._keep(state)
+        if self._medium is not None:
+            self._take_velocities(self._medium.handle)
+            yield from self._pairs()
+
+    def _keep(self, state: State) -> None:
+        if self._states and state.stamp_ns < self._states[-1].stamp_ns:  # a reset
+            self._states.clear()
+            self._velocities.clear()
+        self._states.append(state)
+
+    def _take_velocities(self, handle: Any) -> None:
+        while got := handle.take_message(TwistStamped, True):
+            try:
+                message = read_stamped_pair(got[0])
+            except CommandError as error:
+                self._report(str(error))
+                continue
+            self._velocities.append((message.stamp_ns, tuple(message.first.tolist())))
+
+    def _pairs(self) -> Iterator[State]:
+        """Yield states with the velocity of their stamp; drop what lost its other half."""
+        states, velocities = self._states, self._velocities
+        while states and velocities:
+            stamp_ns, velocity_w = velocities[0]
+            behind = states[0].stamp_ns - stamp_ns
+            if behind <= 0:
+                state = states.popleft()
+            if behind >= 0:
+                velocities.popleft()
+            if behind == 0:
+                yield state._replace(medium_w=velocity_w)
+
+    def _report(self, fault: str) -> None:
+        self._log.error(fault, throttle_duration_sec=1.0)
