@@ -167,6 +167,11 @@ def test_a_medium_that_differs_from_the_stock_fluid_is_refused():
     assert 'density="0"' in line
 
 
+def test_a_surface_beside_stock_drag_is_refused():
+    xml = world(hull(added_mass='auto'), option='density="1000"', medium={'surface': 0})
+    assert 'opt.density' in line_of(xml)
+
+
 def test_a_medium_equal_to_the_stock_fluid_is_accepted():
     load(world(hull(added_mass='auto'), option='density="1000"', medium={'density': 1000}))
 

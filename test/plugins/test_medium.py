@@ -176,6 +176,25 @@ def test_without_a_medium_in_charge_the_call_says_so():
     assert not set_medium(*stock, wind=[1, 0, 0])
 
 
+@pytest.mark.parametrize('shape', ['', 'fluidshape="ellipsoid" fluidcoef=".5 .3 1.2 1 1"'])
+def test_stock_forces_meet_the_local_wind(shape):
+    """MuJoCo's own drag in a profile is what it would be with opt.wind of that height."""
+    body = free_body(f'<geom type="ellipsoid" size=".3 .2 .1" density="500" {shape}/>')
+    option = 'density="1.2" viscosity="1.8e-5"'
+    medium = {'wind': [8, 2, 0], 'wind_profile': 'power 0.143 10', 'wind_datum': 0}
+    model, data = load(world(body, option=option, medium=medium))
+    plain, reference = load(world(body, option=option))
+    plain.opt.wind = float(power_law_profile(4.0, 10, 0.143)[0]) * np.array([8, 2, 0])
+    for copy in (data, reference):
+        copy.qpos[:] = [1, 2, 4, 0.8, 0.6, 0, 0]
+        copy.qvel[:] = [1, -2, 0.5, 0.3, -0.4, 0.2]
+    mujoco.mj_forward(model, data)
+    mujoco.mj_forward(plain, reference)
+    np.testing.assert_allclose(data.qfrc_fluid, reference.qfrc_fluid, rtol=1e-11, atol=1e-12)
+    np.testing.assert_allclose(data.qfrc_passive, reference.qfrc_passive, rtol=1e-11, atol=1e-12)
+    np.testing.assert_allclose(explicit_force(model, data), data.qfrc_fluid, rtol=1e-10)
+
+
 def test_reset_restores_the_configured_flow():
     model, data = load(world(PROBE, medium={'density': 1000, 'current': [0.1, 0.2, 0.3]}))
     start = data.plugin_state.copy()

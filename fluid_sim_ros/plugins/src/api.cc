@@ -8,7 +8,6 @@
 #include "assembly.h"
 #include "fluid_terms.h"
 #include "quiet.h"
-#include "stock_terms.h"
 
 #define FSR_API extern "C" __attribute__((visibility("default")))
 
@@ -98,7 +97,7 @@ void ObserveWrenches(const mjModel* m, const mjData* d, int base, mjtNum* row) {
   // a subtree is contiguous in MuJoCo's depth-first body order
   for (int body = base; body < m->nbody; ++body) {
     if (body > base && m->body_parentid[body] < base) break;
-    AddStockTerms(m, d, body, origin, terms);
+    AddLocalStockTerms(m, d, body, origin, terms);
     AddPluginTerms(m, d, body, origin, true, terms);
   }
   mju_zero(row + kTotal, 6);
@@ -193,7 +192,7 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
     } else {
       ObserveJointedBase(m, scratch, bases[i], row);
     }
-    MediumVelocity(m, d, row + kPosition, row + kMediumVelocity);
+    MediumVelocity(m, d, bases[i], row + kPosition, row + kMediumVelocity);
     if (forces) {
       ObserveWrenches(m, scratch, bases[i], row);
       ObserveAcceleration(m, scratch, bases[i], row);
@@ -209,8 +208,8 @@ FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind, cons
   if (!assembly || !assembly->medium.in_charge()) return 0;
   const Medium& medium = assembly->medium;
   mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
-  if (current) SetTarget(medium.current, state, d->time, current);
-  if (wind) SetTarget(medium.wind, state + kDriveState, d->time, wind);
+  if (current) SetTarget(medium.current, state + kCurrentState, d->time, current);
+  if (wind) SetTarget(medium.wind, state + kWindState, d->time, wind);
   return 1;
 }
 
@@ -220,8 +219,8 @@ FSR_API int fsr_get_medium(const mjModel* m, const mjData* d, double* wind, doub
   const Assembly* assembly = FindAssembly(m, d);
   if (!assembly || !assembly->medium.in_charge()) return 0;
   const mjtNum* state = d->plugin_state + m->plugin_stateadr[assembly->medium.instance];
-  mju_copy3(current, state + kTarget);
-  mju_copy3(wind, state + kDriveState + kTarget);
+  mju_copy3(current, state + kCurrentState + kTarget);
+  mju_copy3(wind, state + kWindState + kTarget);
   return 1;
 }
 
@@ -235,7 +234,7 @@ FSR_API void fsr_explicit_force(const mjModel* m, const mjData* d, mjData* scrat
   for (int body = 1; body < m->nbody; ++body) {
     const mjtNum* origin = scratch->xpos + 3 * body;
     Wrench terms[kTermCount];
-    AddStockTerms(m, scratch, body, origin, terms);
+    AddLocalStockTerms(m, scratch, body, origin, terms);
     AddPluginTerms(m, scratch, body, origin, false, terms);
     for (const Wrench& term : terms) {
       mj_applyFT(m, scratch, term.force, term.torque, origin, body, out);

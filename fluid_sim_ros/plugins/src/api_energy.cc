@@ -26,7 +26,7 @@ void FluidForces(const mjModel* m, mjData* d, mjtNum* added_mass, mjtNum* drag) 
   for (int body = 1; body < m->nbody; ++body) {
     const mjtNum* origin = d->xpos + 3 * body;
     Wrench terms[kTermCount];
-    AddStockTerms(m, d, body, origin, terms);
+    AddLocalStockTerms(m, d, body, origin, terms);
     AddPluginTerms(m, d, body, origin, false, terms);
     mj_applyFT(m, d, terms[kAddedMass].force, terms[kAddedMass].torque, origin, body, added_mass);
     for (Term term : {kDrag, kViscous, kDamping}) {

@@ -8,6 +8,7 @@
 #include "body_forces.h"
 #include "config.h"
 #include "inertia.h"
+#include "point_motion.h"
 #include "stock_terms.h"
 #include "thruster.h"
 
@@ -77,6 +78,28 @@ void ApplyForces(const mjModel* m, mjData* d, const BodyFluid& body, const Motio
   ApplyWrench(m, d, body, motion, wrench);
 }
 
+// MuJoCo's own forces were evaluated in opt.wind: add what the local flow makes of them.
+void CorrectStockForces(const mjModel* m, mjData* d, const Medium& medium) {
+  for (int body = 1; body < m->nbody; ++body) {
+    if (m->body_mass[body] < mjMINVAL || Asleep(m, d, body)) continue;
+    const mjtNum* center = d->xipos + 3 * body;
+    Flow flow[2];
+    FlowsAt(medium, m, d, body, center, 1, flow);
+    Wrench local[kTermCount], stock[kTermCount], change;
+    AddStockTerms(m, d, body, flow[0].velocity, center, local);
+    AddStockTerms(m, d, body, m->opt.wind, center, stock);
+    for (int i = 0; i < kTermCount; ++i) {
+      mju_addTo3(change.force, local[i].force);
+      mju_addTo3(change.torque, local[i].torque);
+      mju_subFrom3(change.force, stock[i].force);
+      mju_subFrom3(change.torque, stock[i].torque);
+    }
+    for (mjtNum* target : {d->qfrc_fluid, d->qfrc_passive}) {
+      AddGeneralizedForce(m, d, body, center, change.force, change.torque, target);
+    }
+  }
+}
+
 // The secant D_s makes drag implicit for the first-order integrators: (M + A + h D_s) qacc = f.
 // RK4 needs the true acceleration at each stage.
 void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
@@ -103,6 +126,7 @@ void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
     }
   }
   for (const Foil& foil : assembly.foils) ApplyFoil(m, d, assembly.medium, foil);
+  if (assembly.medium.corrects_stock) CorrectStockForces(m, d, assembly.medium);
   if (any) mj_factorM(m, d);
 }
 
@@ -222,7 +246,14 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
   }
 }
 
-void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3],
+void AddLocalStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                        Wrench terms[kTermCount]) {
+  mjtNum wind_w[3];
+  MediumVelocity(m, d, body, d->xipos + 3 * body, wind_w);
+  AddStockTerms(m, d, body, wind_w, point_w, terms);
+}
+
+void MediumVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                     mjtNum velocity[3]) {
   const Assembly* assembly = FindAssembly(m, d);
   if (!assembly) {
@@ -232,7 +263,7 @@ void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3],
   const Medium& medium = assembly->medium;
   const bool above = medium.in_charge() && medium.has_surface && point_w[2] > medium.surface;
   Flow flows[2];
-  FlowsAt(medium, m, d, point_w, above ? 0 : 1, flows);
+  FlowsAt(medium, m, d, body, point_w, above ? 0 : 1, flows);
   mju_copy3(velocity, flows[0].velocity);
 }
 

@@ -38,8 +38,13 @@ void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]);
 void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                     bool acceleration, Wrench terms[kTermCount]);
 
-// Velocity of the fluid that a world point lies in [m/s].
-void MediumVelocity(const mjModel* m, const mjData* d, const mjtNum point_w[3], mjtNum velocity[3]);
+// Add the terms of MuJoCo's own fluid forces on `body`, in the flow that it meets, likewise.
+void AddLocalStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                        Wrench terms[kTermCount]);
+
+// Velocity of the fluid that a world point of `body` lies in [m/s].
+void MediumVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                    mjtNum velocity[3]);
 
 // Register fluid_sim.body, fluid_sim.medium and fluid_sim.foil.
 void RegisterAssembly();

@@ -225,7 +225,7 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
   const mjtNum lower_density = LowerDensity(medium, m);
   Flow flows[2];
   mjtNum growth[2] = {0, 0};  // d(multiplier of A)/dt that each fluid brings
-  const int count = FlowsAt(medium, m, d, motion.point_w, immersion.wet, flows);
+  const int count = FlowsAt(medium, m, d, body.id, motion.point_w, immersion.wet, flows);
   for (int i = 0; i < count; ++i) {
     const mjtNum scale = body.added_mass ? AddedMassScale(body, flows[i], lower_density) : 0;
     growth[i] = (flows[i].lower ? 1 : -1) * immersion.rate * scale;
@@ -233,7 +233,7 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
   const bool slamming = growth[0] + growth[1] > 0;
   for (int i = 0; i < count; ++i) {
     const Flow& flow = flows[i];
-    mjtNum nu[6], flow_b[3], flow_accel_b[3];
+    mjtNum nu[6], flow_b[3], flow_accel_b[3], spin_b[3];
     RotateBack(flow_b, motion.rotation, flow.velocity);
     RotateBack(flow_accel_b, motion.rotation, flow.acceleration);
     mju_copy(nu, motion.velocity, 6);
@@ -243,6 +243,9 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
       if (slamming) AddSlamming(body, flow, nu, growth[i], secant, out);
     }
     if (body.buoyant) AddBuoyancy(m, body, flow, immersion, motion, flow_accel_b, out);
+    // a rotational gust is felt by drag and damping; the added mass is that of a uniform flow
+    RotateBack(spin_b, motion.rotation, flow.spin);
+    mju_subFrom3(nu + 3, spin_b);
     if (body.damping.any) AddVehicleDamping(m, medium, body, flow, nu, secant, out);
     if (body.drag != Drag::kEllipsoid) continue;
     for (const DragEllipsoid& part : body.ellipsoids) {

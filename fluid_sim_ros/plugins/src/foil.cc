@@ -62,7 +62,7 @@ void AddWing(const mjModel* m, const mjData* d, const Medium& medium, const Foil
     AddCross(speed, omega, sensed);
     const mjtNum wet = WetShare(medium, pose.rotation, center_w, 0.5 * wing.chord, 0.5 * width);
     Flow flows[2];
-    const int count = FlowsAt(medium, m, d, center_w, wet, flows);
+    const int count = FlowsAt(medium, m, d, foil.body, center_w, wet, flows);
     for (int k = 0; k < count; ++k) {
       mjtNum v[3], center;
       RotateBack(v, pose.rotation, flows[k].velocity);
@@ -81,17 +81,18 @@ void AddAircraft(const mjModel* m, const mjData* d, const Medium& medium, const 
                  const Pose& pose, Wrench* local) {
   const mjtNum deflection[3] = {Angle(m, d, foil.deflection[0]), Angle(m, d, foil.deflection[1]),
                                 Angle(m, d, foil.deflection[2])};
-  mjtNum velocity_w[3], omega_w[3], omega[3];
+  mjtNum velocity_w[3], omega_w[3];
   PointVelocity(m, d, foil.body, pose.point_w, velocity_w, omega_w);
-  RotateBack(omega, pose.rotation, omega_w);
   const mjtNum wet =
       WetShare(medium, pose.rotation, pose.point_w, 0.5 * foil.set.chord, 0.5 * foil.set.span);
   Flow flows[2];
-  const int count = FlowsAt(medium, m, d, pose.point_w, wet, flows);
+  const int count = FlowsAt(medium, m, d, foil.body, pose.point_w, wet, flows);
   for (int k = 0; k < count; ++k) {
-    mjtNum relative_w[3], v[3];
+    mjtNum relative_w[3], v[3], omega[3];
     mju_sub3(relative_w, velocity_w, flows[k].velocity);
     RotateBack(v, pose.rotation, relative_w);
+    mju_sub3(relative_w, omega_w, flows[k].spin);
+    RotateBack(omega, pose.rotation, relative_w);
     const Wrench load = AircraftLoad(foil.set, flows[k].density, v, omega, deflection);
     mju_addToScl3(local->force, load.force, flows[k].weight);
     mju_addToScl3(local->torque, load.torque, flows[k].weight);

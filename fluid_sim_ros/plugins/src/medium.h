@@ -1,16 +1,15 @@
 // fluid_sim.medium: the fluids around the bodies, at most one per model.
 //
-// Two fluids with a level surface between them (water under air), or one fluid everywhere. Current
-// and wind move horizontally or vertically as U(t) s(height); U follows a target at a limited
-// rate, in closed form, so that its time derivative is exact and the state is a pure function of
-// time between two changes of the target.
+// Two fluids with a level surface between them (water under air), or one fluid everywhere. Each
+// moves with the sum of its contributors (flow_sample.h): the current below, the wind above.
 
 #ifndef FLUID_SIM_MEDIUM_H_
 #define FLUID_SIM_MEDIUM_H_
 
 #include <mujoco/mujoco.h>
 
-#include "profile.h"
+#include "flow_sample.h"
+#include "stream.h"
 
 namespace fluid_sim {
 
@@ -22,21 +21,16 @@ struct Flow {
   mjtNum viscosity;        // dynamic [Pa s]
   mjtNum velocity[3];      // undisturbed, world [m/s]
   mjtNum acceleration[3];  // Du/Dt = du/dt + (u.grad)u, world [m/s^2]
+  mjtNum spin[3];          // rotational gust, world [rad/s]
 };
 
-// A run-time velocity in plugin_state: it leaves `start` at `start_time` towards `target`.
-enum MediumState { kTarget = 0, kStart = 3, kStartTime = 6, kDriveState = 7, kMediumState = 14 };
-
-struct Stream {
-  mjtNum initial[3] = {0, 0, 0};  // [m/s]
-  mjtNum slew = 1;                // [m/s^2]; 0: no limit, a change is a step
-  mjtNum datum = 0;               // world z from which the profile counts its height [m]
-  Profile profile;
-};
+// Where plugin_state holds the run-time velocities.
+enum MediumState { kCurrentState = 0, kWindState = kStreamState, kMediumState = 2 * kStreamState };
 
 struct Medium {
-  int instance = -1;   // plugin instance, or -1: the model has none, opt.* holds
-  bool equal = false;  // states the same as opt.*, which then stays in charge
+  int instance = -1;            // plugin instance, or -1: the model has none, opt.* holds
+  bool equal = false;           // states the same as opt.*, which then stays in charge
+  bool corrects_stock = false;  // MuJoCo's own forces act and know only opt.wind, not this flow
   bool has_surface = false;
   mjtNum surface = 0;            // height of the free surface, world z [m]
   mjtNum density[2] = {0, 0};    // below, above [kg/m^3]
@@ -57,16 +51,10 @@ mjtNum LowerDensity(const Medium& medium, const mjModel* m);
 mjtNum LowerViscosity(const Medium& medium, const mjModel* m);
 
 // The fluids with a share in a body whose share `wet` lies below the surface, flow taken at the
-// world point; returns how many of out[2] are filled (1 or 2).
-int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, const mjtNum point_w[3],
-            mjtNum wet, Flow out[2]);
-
-// Run-time velocity of a stream at the data's time and its derivative [m/s], [m/s^2].
-void StreamVelocity(const Stream& stream, const mjtNum* state, mjtNum time, mjtNum velocity[3],
-                    mjtNum derivative[3]);
-
-// Let a stream move from its present velocity to `target`.
-void SetTarget(const Stream& stream, mjtNum* state, mjtNum time, const mjtNum target[3]);
+// world point; returns how many of out[2] are filled (1 or 2). Turbulence is that of the vehicle
+// that `body` belongs to.
+int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
+            const mjtNum point_w[3], mjtNum wet, Flow out[2]);
 
 // State of the two streams at the start: the configured velocities, reached long ago.
 void ResetMediumState(const Medium& medium, mjtNum* state);

@@ -9,10 +9,10 @@
 
 namespace fluid_sim {
 
-// Add the terms of `body` to terms[kTermCount], in world axes, torques about `point_w`.
+// Add the terms of `body` in a wind to terms[kTermCount], in world axes, torques about `point_w`.
 // `d` must hold the positions and velocities of the state in question (mj_forward or the like).
-void AddStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
-                   Wrench terms[kTermCount]);
+void AddStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum wind_w[3],
+                   const mjtNum point_w[3], Wrench terms[kTermCount]);
 
 // Add a wrench given at `origin_w` in the frame `rotation` (row major, local to world).
 void AddLocalWrench(const Wrench& local, const mjtNum* rotation, const mjtNum origin_w[3],

@@ -75,7 +75,7 @@ int DiscFlows(const mjModel* m, const mjData* d, const Thruster& t, const mjtNum
     wet = t.works == Works::kConstant ? (depth < 0 ? 0 : 1)
                                       : DiscShare(depth, 0.5 * t.curve.diameter, axis_w[2]);
   }
-  return FlowsAt(t.medium, m, d, center, wet, flows);
+  return FlowsAt(t.medium, m, d, t.body, center, wet, flows);
 }
 
 // What the thruster does in this fluid, of what its curve says.
