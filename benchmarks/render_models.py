@@ -71,6 +71,7 @@ SHOTS = {
     'bluerov2_heavy': Shot(0.0),
     'x500': Shot(0.0),
     'crazyflie': Shot(0.0),
+    'amphibious': Shot(0.0),
 }
 
 
