@@ -13,14 +13,8 @@ from fluid_sim_ros.gaits import Gaits
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
-from fluid_sim_ros.scene_schema import (
-    Gait,
-    SceneFile,
-    ScheduledEvent,
-    VehicleFile,
-    parse,
-    read_yaml,
-)
+from fluid_sim_ros.scene_schema import Gait, SceneFile, ScheduledEvent, VehicleFile
+from fluid_sim_ros.schema import parse, read_yaml
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
 
 INTEGRATORS = {

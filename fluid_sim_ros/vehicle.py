@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.plugins.native import native
-from fluid_sim_ros.scene_schema import NAME_PATTERN, VehicleFile
+from fluid_sim_ros.scene_schema import VehicleFile
+from fluid_sim_ros.schema import NAME_PATTERN
+from fluid_sim_ros.sensor_schema import SensorsFile
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,8 @@ class Vehicle:
         Actuators that ``cmd/joints`` sets by name, and their ids.
     joint_range
         Allowed commands, shape (m, 2).
+    sensors
+        Its sensors as its file states them.
 
     """
 
@@ -48,6 +52,7 @@ class Vehicle:
     joints: tuple[str, ...]
     joint_ids: NDArray[np.int64]
     joint_range: NDArray[np.float64]
+    sensors: SensorsFile
 
 
 def free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:
@@ -112,6 +117,7 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
         joints=tuple(joints),
         joint_ids=joint_ids,
         joint_range=_control_range(model, joint_ids),
+        sensors=file.sensors,
     )
 
 

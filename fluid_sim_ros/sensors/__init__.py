@@ -1,0 +1,5 @@
+"""Sensors of a vehicle: what they would read of the simulated state, without ROS or MAVLink."""
+
+from fluid_sim_ros.sensors.suite import SensorSuite
+
+__all__ = ['SensorSuite']

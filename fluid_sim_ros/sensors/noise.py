@@ -1,0 +1,124 @@
+"""
+Errors of readings: noise, bias, rounding and saturation as functions of (seed, name, index).
+
+The random numbers come from a counter-based generator (Philox 4x64, Salmon et al., SC 2011) keyed
+by seed and sensor name: the error of reading number k is the same in whatever order readings are
+taken, whatever other sensors there are, and after a saved state has been loaded.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.sensor_schema import Channel
+
+Array = NDArray[np.float64]
+
+#: Readings whose random numbers are drawn at once.
+BLOCK = 256
+#: The independent streams of one sensor; part of the generator's counter.
+_WHITE, _WALK, _DITHER = range(3)
+
+
+class Errors:
+    """
+    The errors of one sensor's readings.
+
+    Parameters
+    ----------
+    channels
+        What is measured: errors and number of axes.
+    rate
+        Readings per second [Hz].
+    seed, name
+        Key of the random numbers.
+    dither
+        Quantum per channel within which uniform noise is added either way, where there is no
+        resolution that says it; empty: no dither.
+
+    """
+
+    def __init__(
+        self,
+        channels: Sequence[tuple[Channel, int]],
+        rate: float,
+        seed: int,
+        name: str,
+        dither: Sequence[float] = (),
+    ) -> None:
+        axes = [count for _, count in channels]
+
+        def per_axis(values: Sequence[float]) -> Array:
+            return np.repeat(np.array(values, dtype=np.float64), axes)
+
+        stated = [channel for channel, _ in channels]
+        self._width = sum(axes)
+        white = [np.hypot(c.density * np.sqrt(rate), c.deviation) for c in stated]
+        self._white = per_axis(white)
+        self._walk = per_axis([c.bias_walk / np.sqrt(rate) for c in stated])
+        quanta = [c.resolution or q for c, q in zip(stated, dither or axes, strict=True)]
+        self._dither = per_axis(quanta if dither else [0.0] * len(stated))
+        self._rounded = per_axis([c.resolution for c in stated]) > 0
+        self._quantum = per_axis([c.resolution or 1.0 for c in stated])
+        self._low = per_axis([c.range[0] if c.range else -np.inf for c in stated])
+        self._high = per_axis([c.range[1] if c.range else np.inf for c in stated])
+
+        self._random = bool(self._white.any() or self._walk.any() or self._dither.any())
+        self._rounds = bool(self._rounded.any())
+        self._saturates = any(c.range for c in stated)
+        self._key = np.random.SeedSequence([seed, *name.encode()]).generate_state(2, np.uint64)
+        self._block = -1
+        self._added = np.zeros((BLOCK, self._width))
+        #: Bias at the begin of each block that was drawn so far.
+        self._bias = [np.zeros(self._width)]
+        self._scratch = np.empty(self._width)
+
+    def apply(self, index: int, values: Array) -> int:
+        """Turn the true values of reading ``index`` into readings; return how many saturated."""
+        if self._random:
+            block, place = divmod(index, BLOCK)
+            if block != self._block:
+                self._draw(block)
+            values += self._added[place]
+        if self._rounds:
+            scratch = self._scratch
+            np.divide(values, self._quantum, out=scratch)
+            np.rint(scratch, out=scratch)
+            np.multiply(scratch, self._quantum, out=scratch)
+            np.copyto(values, scratch, where=self._rounded)
+        if not self._saturates:
+            return 0
+        beyond = np.count_nonzero((values < self._low) | (values > self._high))
+        if beyond:
+            np.clip(values, self._low, self._high, out=values)
+        return int(beyond)
+
+    def _draw(self, block: int) -> None:
+        """Draw what is added to the readings of a block."""
+        self._block = block
+        self._added[:] = 0.0
+        if self._white.any():
+            self._added += self._white * self._normals(_WHITE, block)
+        if self._walk.any():
+            while len(self._bias) <= block:
+                last = len(self._bias) - 1
+                self._bias.append(self._bias[last] + self._steps(last)[-1])
+            self._added += self._bias[block]
+            self._added[1:] += self._steps(block)[:-1]
+        if self._dither.any():
+            shape = (BLOCK, self._width)
+            self._added += self._dither * self._generator(_DITHER, block).uniform(-1, 1, shape)
+
+    def _steps(self, block: int) -> Array:
+        """Return the bias after each reading of a block, from the block's begin."""
+        steps: Array = np.cumsum(self._walk * self._normals(_WALK, block), axis=0)
+        return steps
+
+    def _normals(self, stream: int, block: int) -> Array:
+        return self._generator(stream, block).standard_normal((BLOCK, self._width))
+
+    def _generator(self, stream: int, block: int) -> np.random.Generator:
+        # a block takes far fewer than the 2^64 values between two of these counters
+        counter = np.array([0, 0, stream, block], dtype=np.uint64)
+        return np.random.Generator(np.random.Philox(key=self._key, counter=counter))

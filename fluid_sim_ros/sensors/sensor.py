@@ -1,0 +1,224 @@
+"""What every sensor shares: where it sits, when it measures, and how late its reading appears."""
+
+from abc import ABC, abstractmethod
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.environment import whole_steps
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.runner import period_steps
+from fluid_sim_ros.sensor_schema import Channel, SensorFile
+from fluid_sim_ros.sensors.noise import Errors
+from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Carrier:
+    """
+    What sensors are mounted on.
+
+    Attributes
+    ----------
+    simulation, vehicle
+        Whose state they measure.
+    state
+        The vehicle's row of ``Simulation.observe``, which follows each call.
+    seed
+        Of their random numbers.
+    dither
+        Whether readings that autopilots watch may never stand still.
+
+    """
+
+    simulation: Simulation
+    vehicle: Vehicle
+    state: Array
+    seed: int
+    dither: bool
+
+
+@dataclass(frozen=True)
+class Mount:
+    """
+    Where a sensor sits on its base body.
+
+    Attributes
+    ----------
+    position_b
+        Place in base_link [m], shape (3,).
+    rotation_sb
+        Turns vectors of base_link into the sensor's axes, shape (3, 3); None: the same axes.
+
+    """
+
+    position_b: Array
+    rotation_sb: Array | None
+
+    @classmethod
+    def of_site(cls, carrier: Carrier, site: str | None, where: str) -> 'Mount':
+        """
+        Return the mount at a site of the base body; None is base_link itself.
+
+        Raises
+        ------
+        ConfigError
+            If the base body has no such site.
+
+        """
+        if site is None:
+            return cls(np.zeros(3), None)
+        model, body = carrier.simulation.model, carrier.vehicle.body_id
+        identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site)
+        if identity < 0 or model.site_bodyid[identity] != body:
+            sites = [model.site(i) for i in range(model.nsite) if model.site_bodyid[i] == body]
+            has = listed(s.name for s in sites if s.name)
+            raise ConfigError(f"{where}: site '{site}' is not on the base body; it has: {has}")
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, model.site_quat[identity])
+        rotation_bs = rotation.reshape(3, 3)
+        turned = not np.array_equal(rotation_bs, np.eye(3))
+        return cls(model.site_pos[identity].copy(), rotation_bs.T.copy() if turned else None)
+
+    def to_sensor(self, vectors_b: Array) -> Array:
+        """Return vectors of base_link, shape (..., 3), in the sensor's axes."""
+        if self.rotation_sb is None:
+            return vectors_b
+        turned: Array = vectors_b @ self.rotation_sb.T
+        return turned
+
+
+@dataclass(frozen=True)
+class SavedSensor:
+    """What a sensor's next readings depend on besides the simulation's state."""
+
+    step: int
+    fresh: bool
+    time_ns: int
+    values: Array
+    pending: tuple[tuple[int, int, Array], ...]
+
+
+class Sensor(ABC):
+    """
+    One sensor; ``values`` and the arrays of the subclasses are overwritten by each reading.
+
+    Parameters
+    ----------
+    carrier, config
+        Whose, and which errors, rate and latency it has.
+    channels
+        What it measures: errors and number of axes.
+    dither
+        Quantum per channel where it is to be dithered and has no resolution.
+
+    Attributes
+    ----------
+    period, latency
+        Steps between two readings, and from what is measured to its reading.
+    fresh
+        A new reading has appeared at the last ``update``.
+    time_ns
+        Simulated time at which the present reading was true [ns]; -1 before the first.
+    values
+        The present reading, shape (n,).
+    saturated
+        How many values were beyond the range so far.
+
+    Raises
+    ------
+    ConfigError
+        If the rate, the latency or the site does not fit the model.
+
+    """
+
+    #: Its numbers need ``Simulation.observe(forces=True)``.
+    needs_forces: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        carrier: Carrier,
+        config: SensorFile,
+        channels: Sequence[tuple[Channel, int]],
+        dither: Sequence[float] = (),
+    ) -> None:
+        simulation, vehicle = carrier.simulation, carrier.vehicle
+        where = f"{simulation.scene.name}: vehicle '{vehicle.name}': sensors.{config.kind}"
+        self.config = config
+        self.mount = Mount.of_site(carrier, config.site, where)
+        self.period = period_steps(config.rate, simulation.timestep, where)
+        self.latency = whole_steps(config.latency, simulation.timestep, f'{where}: latency')
+        self._state = carrier.state
+        self._errors = Errors(
+            channels, config.rate, carrier.seed, f'{vehicle.name}/{config.kind}',
+            dither if carrier.dither else (),
+        )  # fmt: skip
+        width = sum(count for _, count in channels)
+        self.values = np.zeros(width)
+        # one row for each reading that may be under way, and one for the next
+        self._rows = np.zeros((self.latency // self.period + 2, width))
+        self._pending: deque[tuple[int, int, Array]] = deque()
+        self.saturated = 0
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget every reading, as before the first; the count of saturations goes on."""
+        self._step = -1
+        self.fresh = False
+        self.time_ns = -1
+        self.values[:] = 0.0
+        self._pending.clear()
+
+    def update(self, step: int, time_ns: int) -> None:
+        """
+        Measure if it is due, and show the reading that is.
+
+        The caller has observed the state at this step boundary (with forces if due and needed).
+        A second call at the same step changes nothing; a step that goes back forgets all.
+        """
+        if step == self._step:
+            return
+        if step < self._step:
+            self.reset()
+        self._step = step
+        self.fresh = False
+        if step % self.period == 0:
+            index = step // self.period
+            row = self._rows[index % len(self._rows)] if self.latency else self.values
+            if self._measure(row):
+                self.saturated += self._errors.apply(index, row)
+                self._pending.append((step + self.latency, time_ns, row))
+        while self._pending and self._pending[0][0] <= step:
+            _, self.time_ns, row = self._pending.popleft()
+            if self.latency:
+                self.values[:] = row
+            self.fresh = True
+        if self.fresh:
+            self._convert()
+
+    @abstractmethod
+    def _measure(self, values: Array) -> bool:
+        """Write the true values at this boundary; return whether there is anything to read."""
+
+    def _convert(self) -> None:  # noqa: B027 (most have nothing to derive)
+        """Derive further numbers from a new reading."""
+
+    def save_state(self) -> SavedSensor:
+        """Return the present reading and those under way."""
+        pending = tuple((due, time_ns, row.copy()) for due, time_ns, row in self._pending)
+        return SavedSensor(self._step, self.fresh, self.time_ns, self.values.copy(), pending)
+
+    def load_state(self, saved: SavedSensor) -> None:
+        """Go on from a saved state; the simulation's was loaded before."""
+        self._step, self.fresh, self.time_ns = saved.step, saved.fresh, saved.time_ns
+        self.values[:] = saved.values
+        self._pending = deque((due, ns, row.copy()) for due, ns, row in saved.pending)
+        self._convert()

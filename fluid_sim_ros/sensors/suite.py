@@ -1,0 +1,91 @@
+"""All sensors of a vehicle, sampled at step boundaries."""
+
+import math
+
+from fluid_sim_ros.environment import NEVER
+from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.sensors.imu import Imu
+from fluid_sim_ros.sensors.sensor import Carrier, SavedSensor, Sensor
+from fluid_sim_ros.simulation import Simulation
+
+
+class SensorSuite:
+    """
+    The sensors of a vehicle.
+
+    Call ``update`` at every step that ``period`` divides, step 0 included; a simulation that has
+    gone back in time (a reset) makes every sensor begin anew. Made for the timestep that the
+    simulation has now.
+
+    Parameters
+    ----------
+    simulation
+        What is measured; reading never changes its trajectory.
+    vehicle
+        Name of the vehicle.
+    config
+        Its sensors; default: those of its file.
+    seed
+        Of the random numbers; default: the simulation's.
+
+    Attributes
+    ----------
+    imu
+        The sensor, or None where the vehicle has none.
+    sensors
+        Those that there are.
+    period
+        Greatest common divisor of all periods and latencies [steps].
+
+    Raises
+    ------
+    CommandError, ConfigError
+        If there is no such vehicle, or a sensor does not fit the model.
+
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        vehicle: str,
+        config: SensorsFile | None = None,
+        seed: int | None = None,
+    ) -> None:
+        target = simulation.vehicle(vehicle)
+        if config is None:
+            config = target.sensors
+        index = list(simulation.vehicles).index(vehicle)
+        self._simulation = simulation
+        carrier = Carrier(
+            simulation, target, simulation.observe(forces=False)[index],
+            simulation.seed if seed is None else seed, config.dither,
+        )  # fmt: skip
+        self.imu = Imu(carrier, config.imu) if config.imu else None
+        each = (self.imu,)
+        self.sensors: tuple[Sensor, ...] = tuple(sensor for sensor in each if sensor)
+        periods = [steps for s in self.sensors for steps in (s.period, s.latency)]
+        self.period = math.gcd(*periods) or NEVER
+
+    def update(self) -> None:
+        """Sample what is due at this step boundary."""
+        step = self._simulation.step_count
+        due = [sensor for sensor in self.sensors if step % sensor.period == 0]
+        if due:
+            self._simulation.observe(any([sensor.needs_forces for sensor in due]))
+        time_ns = self._simulation.time_ns
+        for sensor in self.sensors:
+            sensor.update(step, time_ns)
+
+    def reset(self) -> None:
+        """Forget every reading, as after a reset to another state at the same step."""
+        for sensor in self.sensors:
+            sensor.reset()
+
+    def save_state(self) -> dict[str, SavedSensor]:
+        """Return the present readings and those under way; to be kept with the simulation's."""
+        return {sensor.config.kind: sensor.save_state() for sensor in self.sensors}
+
+    def load_state(self, saved: dict[str, SavedSensor]) -> None:
+        """Go on from a saved state of the same suite."""
+        for sensor in self.sensors:
+            sensor.load_state(saved[sensor.config.kind])
