@@ -20,6 +20,13 @@ TYPES = (
     'geometry_msgs/msg/TwistWithCovarianceStamped', 'sensor_msgs/msg/Range',
     'geometry_msgs/msg/Vector3Stamped', 'sensor_msgs/msg/BatteryState',
 )  # fmt: skip
+# Not among the wheels: the text and the hash of ROS 2 Jazzy's tf2_msgs.
+ELSEWHERE = {
+    'tf2_msgs/msg/TFMessage': (
+        'geometry_msgs/TransformStamped[] transforms\n',
+        'RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087',
+    ),
+}
 BUILT_IN = {
     'bool', 'byte', 'char', 'float32', 'float64', 'int8', 'uint8', 'int16', 'uint16', 'int32',
     'uint32', 'int64', 'uint64', 'string', 'wstring',
@@ -40,6 +47,8 @@ def share_of(package: str) -> Path:
 
 def text_of(message: str) -> str:
     """Return the text of a .msg file."""
+    if message in ELSEWHERE:
+        return ELSEWHERE[message][0]
     package, _, name = message.split('/')
     return (share_of(package) / 'msg' / f'{name}.msg').read_text(encoding='utf-8')
 
@@ -78,6 +87,8 @@ def definition(message: str) -> str:
 
 def type_hash(message: str) -> str:
     """Return a message's type hash."""
+    if message in ELSEWHERE:
+        return ELSEWHERE[message][1]
     package, _, name = message.split('/')
     content = json.loads((share_of(package) / 'msg' / f'{name}.json').read_text(encoding='utf-8'))
     return next(
@@ -91,7 +102,7 @@ def collect() -> dict[str, object]:
         'source': 'common_interfaces and rcl_interfaces of ROS 2 Jazzy, Apache License 2.0',
         'types': {
             name: {'hash': type_hash(name), 'definition': definition(name)}
-            for name in sorted(TYPES)
+            for name in sorted((*TYPES, *ELSEWHERE))
         },
     }
 

@@ -228,16 +228,18 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
 
     from fluid_sim_ros.recorder_tap import RecordedTopic
     from fluid_sim_ros.ros.parameters import check_domain
-    from fluid_sim_ros.ros.replay import ReplayOptions, replay
+    from fluid_sim_ros.ros.replay import ReplayOptions, is_installed, replay
 
     check_domain()
     options = ReplayOptions(arguments.rate, arguments.loop, arguments.paused)
     begin, end = arguments.begin * 1e9, arguments.end * 1e9
-    topics = [
+    chosen = [
         RecordedTopic(t.name, t.type)
         for t in log.topics.values()
         if any(fnmatchcase(t.name, pattern) for pattern in arguments.topics)
     ]
+    topics = [topic for topic in chosen if is_installed(topic.type)]
+    left_out = {t.name: f'{t.type} is not installed' for t in chosen if t not in topics}
     names = {topic.name for topic in topics}
 
     def messages() -> Iterator[tuple[str, int, bytes]]:
@@ -246,8 +248,12 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
                 yield message.topic, message.log_ns, message.data
 
     count = replay(topics, messages, options)
-    result = {'log': str(log.path), 'published': count, 'faults': log.faults}
-    show(arguments.json, f'{count} messages published', result)
+    result = {
+        'log': str(log.path), 'published': count, 'left_out': left_out, 'faults': log.faults
+    }  # fmt: skip
+    lines = [f'{count} messages published']
+    lines += [f'left out: {name}: {reason}' for name, reason in left_out.items()]
+    show(arguments.json, '\n'.join(lines), result)
     return DAMAGED if log.faults else 0
 
 

@@ -29,8 +29,9 @@ _FIELDS = {
     'medium/wind': [f'twist.linear.{axis}' for axis in 'xyz'],
     'joint_states': [f'effort[{rotor}]' for rotor in range(4)],
 }
-#: What the demo's simulator records.
-TOPICS = tuple(f'{VEHICLE}/{leaf}' for leaf in _FIELDS)
+#: What is read, and what the demo's simulator records: viewers place the vehicle by /tf.
+_READ = tuple(f'{VEHICLE}/{leaf}' for leaf in _FIELDS)
+TOPICS = (*_READ, '/tf')
 
 Array = NDArray[np.float64]
 
@@ -48,7 +49,7 @@ def read_recording(path: Path) -> Recording:
     log = open_log(path)
     if log.faults:
         raise ConfigError(f'{path}: damaged: {log.faults[0]}')
-    messages: dict[str, list[LogMessage]] = {f'/{name}': [] for name in TOPICS}
+    messages: dict[str, list[LogMessage]] = {f'/{name}': [] for name in _READ}
     for message in log.messages(list(messages)):
         messages[message.topic].append(message)
     odometry, fluid, drag, wind, thrust = (

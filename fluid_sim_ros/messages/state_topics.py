@@ -1,7 +1,7 @@
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 
 ODOMETRY = 'nav_msgs/msg/Odometry'
 CLOCK = 'rosgraph_msgs/msg/Clock'
+TRANSFORMS = 'tf2_msgs/msg/TFMessage'
 
 #: Rates [Hz] of simulated time and variances, as the node's parameters of the same names.
 DEFAULTS: dict[str, Any] = {
@@ -30,6 +31,7 @@ DEFAULTS: dict[str, Any] = {
     'medium.rate': 100.0,
     'joint_states.rate': 100.0,
     'clock.rate': 100.0,
+    'tf.rate': 50.0,
 }
 
 
@@ -59,11 +61,10 @@ class StateTopic:
     needs_forces: bool = False
     prepare: Callable[[], None] | None = None
 
-    def data(self, stamp: memoryview) -> bytes:
+    def data(self) -> bytes:
         """Return the message with the numbers that were observed last; see ``StateTopics``."""
         if self.prepare is not None:
             self.prepare()
-        self.template.stamp[:] = stamp
         for target, source in self.copies:
             target[:] = source
         return self.template.bytes()
@@ -97,6 +98,7 @@ class StateTopics:
         self.topics: list[StateTopic] = []
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
+        self._add_transforms(list(simulation.vehicles), rows)
         self._add('/clock', CLOCK, templates.clock(), 'clock.rate', [])
         self.topics.sort(key=lambda topic: topic.needs_forces)
         self.period = math.gcd(*(topic.period for topic in self.topics))
@@ -117,11 +119,10 @@ class StateTopics:
         if topic.needs_forces and not self._forces_known:
             self._simulation.observe(forces=True)
             self._forces_known = True
-        return topic.data(self._stamp.view)
+        return topic.data()
 
     def _add_vehicle(self, vehicle: Vehicle, row: Array) -> None:
         name, settings = vehicle.name, self._settings
-        quat = row[nat.QUATERNION]
         velocity = row[nat.LINEAR_VELOCITY.start : nat.ANGULAR_VELOCITY.stop]
         odometry = templates.odometry(
             name, settings['odom.pose_covariance'], settings['odom.twist_covariance']
@@ -129,9 +130,7 @@ class StateTopics:
         position, orientation, twist = odometry.blocks
         self._add(f'{name}/odom', ODOMETRY, odometry, 'odom.rate', [
             (position, templates.as_bytes(row[nat.POSITION])),
-            # wxyz inside, xyzw in the message
-            (orientation[:24], templates.as_bytes(quat[1:])),
-            (orientation[24:], templates.as_bytes(quat[:1])),
+            *_orientation(orientation, row[nat.QUATERNION]),
             (twist, templates.as_bytes(velocity)),
         ])  # fmt: skip
         columns = {'total': nat.TOTAL, 'thrust': nat.THRUST}
@@ -149,6 +148,23 @@ class StateTopics:
             copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
             self._add(f'{name}/medium/{stream}', TWIST, template, 'medium.rate', copies)
         self._add_joint_states(vehicle)
+
+    def _add_transforms(self, vehicles: Sequence[str], rows: Array) -> None:
+        """Place each vehicle in the map by way of its odometry frame, which is the map's."""
+        parents: dict[str, str] = {}
+        for name in vehicles:
+            parents |= {f'{name}/odom': 'map', f'{name}/base_link': f'{name}/odom'}
+        template = templates.transforms(parents)
+        identity = templates.as_bytes(np.array([1.0]))
+        copies = []
+        for index in range(len(vehicles)):
+            _, same, position, orientation = template.blocks[4 * index : 4 * index + 4]
+            same[24:] = identity
+            copies += [
+                (position, templates.as_bytes(rows[index][nat.POSITION])),
+                *_orientation(orientation, rows[index][nat.QUATERNION]),
+            ]
+        self._add('/tf', TRANSFORMS, template, 'tf.rate', copies)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:
         """
@@ -203,9 +219,18 @@ class StateTopics:
         period = period_steps(
             self._settings[rate], self._simulation.timestep, f"parameter '{rate}'"
         )
+        copies = [(place, self._stamp.view) for place in template.stamps] + copies
         self.topics.append(
             StateTopic(name, message, template, period, copies, needs_forces, prepare)
         )
+
+
+def _orientation(block: memoryview, quat_wxyz: Array) -> list[tuple[memoryview, memoryview]]:
+    """Return what to copy where: wxyz inside, xyzw in messages."""
+    return [
+        (block[:24], templates.as_bytes(quat_wxyz[1:])),
+        (block[24:], templates.as_bytes(quat_wxyz[:1])),
+    ]
 
 
 def _is_single_joint(model: mujoco.MjModel, joint: int, base: int) -> bool:

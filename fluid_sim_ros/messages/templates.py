@@ -8,15 +8,14 @@ publishing copies the present numbers over it and hands the bytes to the middlew
 """
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 _STAMP = struct.Struct('<iI')
-#: Plain CDR, little endian; the stamp is the first member of every message behind it.
+#: Plain CDR, little endian.
 _HEADER = b'\x00\x01\x00\x00'
-_STAMP_OFFSET = len(_HEADER)
 
 Array = NDArray[np.float64]
 
@@ -25,21 +24,31 @@ class Template:
     """
     The bytes of one message, built member by member; a stamp stands first unless told otherwise.
 
-    ``blocks`` are views of its runs of doubles in the order of their ``doubles`` calls that were
-    marked as changing; they exist after ``finish``.
+    ``stamps`` and ``blocks`` are views of its stamps and of its runs of doubles that change, in
+    the order of the ``stamp`` and ``doubles`` calls; they exist after ``finish``.
     """
 
     def __init__(self, stamped: bool = True) -> None:
-        self._buffer = bytearray(_HEADER) + bytearray(_STAMP.size if stamped else 0)
+        self._buffer = bytearray(_HEADER)
+        self._stamps: list[int] = []
         self._places: list[tuple[int, int]] = []
         self.padding: list[int] = []
         self.blocks: list[memoryview] = []
-        self.stamp = memoryview(b'')
+        self.stamps: list[memoryview] = []
+        if stamped:
+            self.stamp()
 
     def _align(self, size: int) -> None:
         gap = -(len(self._buffer) - len(_HEADER)) % size
         self.padding += range(len(self._buffer), len(self._buffer) + gap)
         self._buffer += bytes(gap)
+
+    def stamp(self) -> 'Template':
+        """Append a stamp that changes."""
+        self._align(4)
+        self._stamps.append(len(self._buffer))
+        self._buffer += bytes(_STAMP.size)
+        return self
 
     def uint32(self, value: int) -> 'Template':
         """Append an unsigned 32-bit integer (also a sequence's length)."""
@@ -70,7 +79,7 @@ class Template:
     def finish(self) -> 'Template':
         """End the message; its size is fixed from here on."""
         view = memoryview(self._buffer)
-        self.stamp = view[_STAMP_OFFSET : _STAMP_OFFSET + _STAMP.size]
+        self.stamps = [view[start : start + _STAMP.size] for start in self._stamps]
         self.blocks = [view[start : start + size] for start, size in self._places]
         return self
 
@@ -135,4 +144,16 @@ def joint_state(names: Sequence[str]) -> Template:
         template.string(name)
     for _ in range(3):
         template.uint32(len(names)).doubles(len(names))
+    return template.finish()
+
+
+def transforms(children: Mapping[str, str]) -> Template:
+    """
+    Return tf2_msgs/TFMessage with a transform per child -> parent frame.
+
+    Blocks: translation (3) and rotation xyzw (4) of each.
+    """
+    template = Template(stamped=False).uint32(len(children))
+    for child, parent in children.items():
+        template.stamp().string(parent).string(child).doubles(3).doubles(4)
     return template.finish()

@@ -76,7 +76,7 @@ class _Commands:
 
     def publish(self, stamp: memoryview, values: Sequence[float]) -> None:
         """Send the values as the answer to the state of a stamp."""
-        self._template.stamp[:] = stamp
+        self._template.stamps[0][:] = stamp
         self._pack(self._template.blocks[0], 0, *values)
         self._publisher.handle.publish_raw(self._template.bytes())
 

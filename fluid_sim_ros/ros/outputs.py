@@ -1,5 +1,6 @@
 """The node's state topics: computed and published only when due and subscribed to."""
 
+import importlib.util
 import math
 import time
 from dataclasses import dataclass
@@ -14,7 +15,13 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
-from fluid_sim_ros.messages.state_topics import CLOCK, ODOMETRY, StateTopic, StateTopics
+from fluid_sim_ros.messages.state_topics import (
+    CLOCK,
+    ODOMETRY,
+    TRANSFORMS,
+    StateTopic,
+    StateTopics,
+)
 from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.inputs import REFRESH_PERIOD
 from fluid_sim_ros.simulation import Simulation
@@ -25,14 +32,25 @@ _MESSAGES: dict[str, type] = {
     ODOMETRY: Odometry, WRENCH: WrenchStamped, TWIST: TwistStamped, JOINT_STATE: JointState,
     CLOCK: Clock,
 }  # fmt: skip
+# an optional part of ROS: without it the transforms can be recorded, but not published
+if importlib.util.find_spec('tf2_msgs') is not None:
+    from tf2_msgs.msg import TFMessage
+
+    _MESSAGES[TRANSFORMS] = TFMessage
 
 
 @dataclass
 class Topic:
-    """One state topic and its publisher; ``record`` is its place in the log, or -1."""
+    """
+    One state topic.
+
+    ``publisher`` is None where ROS lacks the message type, ``full`` the name on the graph, and
+    ``record`` the place in the log, or -1.
+    """
 
     state: StateTopic
     publisher: Any
+    full: str
     record: int = -1
     subscribed: bool = False
     published: int = 0
@@ -52,13 +70,18 @@ class Outputs:
     def __init__(self, node: Node, simulation: Simulation, settings: dict[str, Any]) -> None:
         self._node = node
         self._states = StateTopics(simulation, settings)
-        self.topics = [Topic(state, self._publisher(state)) for state in self._states.topics]
+        self.topics = [
+            Topic(state, self._publisher(state), node.resolve_topic_name(state.name))
+            for state in self._states.topics
+        ]
         self.period = self._states.period
         self.tap: Tap | None = None
         self._active: list[Topic] = []
         self._refreshed_at = -math.inf
 
     def _publisher(self, state: StateTopic) -> Any:
+        if state.type not in _MESSAGES:
+            return None
         return self._node.create_publisher(
             _MESSAGES[state.type], state.name,
             _CLOCK_QOS if state.type == CLOCK else _STATE_QOS,
@@ -68,7 +91,8 @@ class Outputs:
     def destroy(self) -> None:
         """Remove the publishers from the node."""
         for topic in self.topics:
-            self._node.destroy_publisher(topic.publisher)
+            if topic.publisher is not None:
+                self._node.destroy_publisher(topic.publisher)
 
     # ---- the runner's sink -----------------------------------------------------------------
 
@@ -94,7 +118,8 @@ class Outputs:
     def refresh(self) -> None:
         """Look which topics have subscribers; what is recorded is wanted without any."""
         for topic in self.topics:
-            topic.subscribed = topic.publisher.get_subscription_count() > 0
+            publisher = topic.publisher
+            topic.subscribed = publisher is not None and publisher.get_subscription_count() > 0
         self._active = [t for t in self.topics if t.subscribed or t.record >= 0]
 
     def _publish(self, topics: list[Topic]) -> list[tuple[int, bytes]]:

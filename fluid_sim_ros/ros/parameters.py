@@ -124,6 +124,7 @@ TABLE: dict[str, Declared] = {
         100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3
     ),
     'clock.rate': Declared(100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
+    'tf.rate': Declared(50.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
     'record': Declared(
         '',
         'MCAP file (.mcap) to record to, or a folder that becomes a rosbag2 bag; empty = no '

@@ -49,8 +49,9 @@ def start_recording(
         if output.name in wanted:
             output.record = len(recorded)
             depth = 1 if output.name == '/clock' else 10
-            full = output.publisher.topic_name
-            recorded.append(RecordedTopic(full, output.state.type, output.name, depth=depth))
+            recorded.append(
+                RecordedTopic(output.full, output.state.type, output.name, depth=depth)
+            )
     for entry in inputs.inputs:
         entry.record = len(recorded)
         full = entry.subscription.topic_name

@@ -6,6 +6,7 @@ next simulated time. Only the calling thread publishes; the services set flags f
 """
 
 import importlib
+import importlib.util
 import signal
 import threading
 import time
@@ -63,6 +64,11 @@ class ReplayOptions:
     def __post_init__(self) -> None:
         if not 0 < self.rate < float('inf'):
             raise ConfigError(f'--rate {self.rate:g}: must be finite and above 0')
+
+
+def is_installed(message: str) -> bool:
+    """Return whether ROS here has the package of a message type, ``package/msg/Name``."""
+    return importlib.util.find_spec(message.split('/')[0]) is not None
 
 
 class ReplayNode(Node):
@@ -187,7 +193,7 @@ class ReplayNode(Node):
 
     def _publish_clock(self, time_ns: int) -> None:
         self._stamp.set(time_ns)
-        self._clock_message.stamp[:] = self._stamp.view
+        self._clock_message.stamps[0][:] = self._stamp.view
         publisher: Any = self._publishers_by_name[_CLOCK]
         publisher.handle.publish_raw(self._clock_message.bytes())
 

@@ -24,7 +24,7 @@ def wind_message(velocity_w, stamp_ns=0):
     message = templates.twist('map')
     stamp = templates.StampBytes()
     stamp.set(stamp_ns)
-    message.stamp[:] = stamp.view
+    message.stamps[0][:] = stamp.view
     message.blocks[0][:] = templates.as_bytes(np.array(velocity_w, dtype=float))
     return message.bytes()
 

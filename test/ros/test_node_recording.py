@@ -41,6 +41,7 @@ def test_what_was_published_and_received_is_in_the_log(tmp_path):
             command = Float64MultiArray(data=[1.0, -2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
             thrust.publish(command)
             peer.call(SetBool, 'fluid_sim_node/enable_wind', data=False)
+            wait_until(lambda: odometry, 'the first state')
             end = odometry[-1].header.stamp.sec + 3
             wait_until(lambda: odometry[-1].header.stamp.sec >= end, 'the command to go stale')
             process.signal(signal.SIGINT)

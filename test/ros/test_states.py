@@ -90,7 +90,7 @@ def test_a_length_that_lies_is_an_error() -> None:
 @pytest.mark.parametrize('count', [1, 4, 8])
 def test_answer_template_is_a_joint_state(member: str, count: int) -> None:
     template = command_template(member, count)
-    template.stamp[:] = struct.pack('<iI', 12, 34)
+    template.stamps[0][:] = struct.pack('<iI', 12, 34)
     values = [0.5 + i for i in range(count)]
     template.blocks[0][:] = np.array(values).tobytes()
     expected = JointState(**{member: values})

@@ -5,10 +5,13 @@ import pytest
 from geometry_msgs.msg import TwistStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
+from rosbags.typesys import Stores, get_typestore
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.messages import templates
+from fluid_sim_ros.messages.definitions import definition
+from fluid_sim_ros.messages.state_topics import TRANSFORMS
 
 pytestmark = pytest.mark.ros
 
@@ -18,7 +21,7 @@ TIME_NS = 1_234_567_890_123
 def fill(template, *blocks):
     stamp = templates.StampBytes()
     stamp.set(TIME_NS)
-    template.stamp[:] = stamp.view
+    template.stamps[0][:] = stamp.view
     for target, numbers in zip(template.blocks, blocks, strict=True):
         target[:] = templates.as_bytes(np.array(numbers, dtype=float))
     return template
@@ -84,3 +87,28 @@ def test_joint_state(count):
     rows = np.random.default_rng(count).normal(size=(3, count))
     message.position, message.velocity, message.effort = (row.tolist() for row in rows)
     assert_same(fill(templates.joint_state(names), *rows), message)
+
+
+def test_transforms():
+    """Read back by an independent reader, as ROS's own message need not be installed."""
+    numbers = np.random.default_rng(1).normal(size=(2, 7))
+    template = templates.transforms({'rov/odom': 'map', 'rov/base_link': 'rov/odom'})
+    stamp = templates.StampBytes()
+    stamp.set(TIME_NS)
+    for place in template.stamps:
+        place[:] = stamp.view
+    for block, values in zip(
+        template.blocks, [part for row in numbers for part in (row[:3], row[3:])], strict=True
+    ):
+        block[:] = templates.as_bytes(values.copy())
+    kinds = get_typestore(Stores.ROS2_JAZZY)
+    message = kinds.deserialize_cdr(template.bytes(), TRANSFORMS)
+    assert [(t.header.frame_id, t.child_frame_id) for t in message.transforms] == [
+        ('map', 'rov/odom'), ('rov/odom', 'rov/base_link'),
+    ]  # fmt: skip
+    for transform, row in zip(message.transforms, numbers, strict=True):
+        assert transform.header.stamp.sec * 10**9 + transform.header.stamp.nanosec == TIME_NS
+        place, turn = transform.transform.translation, transform.transform.rotation
+        assert [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w] == row.tolist()
+    # the kept definition, too, is that of an independent source
+    assert definition(TRANSFORMS).hash == kinds.hash_rihs01(TRANSFORMS)
