@@ -72,6 +72,7 @@ SHOTS = {
     'x500': Shot(0.0),
     'crazyflie': Shot(0.0),
     'amphibious': Shot(0.0),
+    'aerosonde': Shot(0.0),
 }
 
 

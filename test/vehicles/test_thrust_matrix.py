@@ -15,7 +15,7 @@ from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.ros.vehicle_plant import plant_of
 from fluid_sim_ros.thrust_matrix import WrenchAllocation, thrust_matrix
 
-DRIVEN = ('rov', 'quadrotor', 'bluerov2_heavy', 'bluerov2', 'x500', 'crazyflie')
+DRIVEN = ('rov', 'quadrotor', 'bluerov2_heavy', 'bluerov2', 'x500', 'crazyflie', 'aerosonde')
 
 
 def only(simulation):
@@ -27,6 +27,7 @@ def measured_matrix(simulation):
     """Return the wrench at 1 N of each thruster as MuJoCo applies it, with the lag run out."""
     model, data, vehicle = simulation.model, simulation.data, only(simulation)
     data.qpos[3:7] = (1, 0, 0, 0)
+    data.qvel[:] = 0
     data.qpos[2] += 500 if data.qpos[2] > 0 else 0  # away from the ground
     columns, out = [], np.zeros(6)
     for actuator in vehicle.thruster_ids:
@@ -34,8 +35,10 @@ def measured_matrix(simulation):
         data.act[:] = 0
         data.ctrl[actuator] = 1e-2
         mujoco.mj_forward(model, data)
-        if native().thruster(model._address, data._address, int(actuator), out.ctypes.data):
-            data.act[model.actuator_actadr[actuator]] = out[1]
+        place = model.actuator_actadr[actuator]
+        thruster = native().thruster
+        if place >= 0 and thruster(model._address, data._address, int(actuator), out.ctypes.data):
+            data.act[place] = out[1]
         mujoco.mj_forward(model, data)
         columns.append(data.qfrc_actuator[:6] / 1e-2)
     return np.array(columns).T
