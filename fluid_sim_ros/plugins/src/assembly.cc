@@ -261,7 +261,8 @@ void MediumVelocity(const mjModel* m, const mjData* d, int body, const mjtNum po
     return;
   }
   const Medium& medium = assembly->medium;
-  const bool above = medium.in_charge() && medium.has_surface && point_w[2] > medium.surface;
+  const bool above =
+      medium.in_charge() && medium.has_surface && point_w[2] > SurfaceHeight(medium, d, point_w);
   Flow flows[2];
   FlowsAt(medium, m, d, body, point_w, above ? 0 : 1, flows);
   mju_copy3(velocity, flows[0].velocity);

@@ -41,6 +41,7 @@ struct BodyFluid {
   mjtNum center_shift[3] = {0, 0, 0};  // stated centre of buoyancy minus the solids' [m]
   mjtNum solid_volume = 0;             // of the solids below [m^3]
   mjtNum solid_moment[3] = {0, 0, 0};  // their volume times centre [m^4]
+  mjtNum solid_radius = 0;             // of a ball about their centre that holds them [m]
   std::vector<Solid> solids;           // used where a surface may cut the body
 };
 

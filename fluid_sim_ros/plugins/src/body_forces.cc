@@ -1,44 +1,12 @@
 #include "body_forces.h"
 
-#include <algorithm>
-
 #include "damping.h"
+#include "immersion.h"
 #include "local_drag.h"
 #include "spatial.h"
 
 namespace fluid_sim {
 namespace {
-
-// How a body lies in the fluids; points in body axes from the body's origin.
-struct Immersion {
-  mjtNum wet = 1;                // share of the volume below the surface [-]
-  mjtNum rate = 0;               // its time derivative [1/s]
-  mjtNum moment[3] = {0, 0, 0};  // of the wet part of the solids [m^4]
-};
-
-// Cut by the level surface n.x = d. d(volume)/dt = -(area cut) (rise of its centre).
-Immersion Immerse(const mjData* d, const Medium& medium, const BodyFluid& body,
-                  const Motion& motion) {
-  Immersion out;
-  mju_copy3(out.moment, body.solid_moment);
-  if (!medium.in_charge() || !medium.has_surface) return out;
-  const mjtNum* rotation = motion.rotation;
-  const mjtNum normal[3] = {rotation[6], rotation[7], rotation[8]};  // R' e_z
-  WetPart part;
-  for (const Solid& solid : body.solids) {
-    AddWetPart(solid, normal, medium.surface - d->xpos[3 * body.id + 2], &part);
-  }
-  mju_copy3(out.moment, part.moment);
-  out.wet = std::clamp<mjtNum>(part.volume / body.solid_volume, 0, 1);
-  if (part.area > 0) {
-    mjtNum arm[3], velocity[3];
-    mju_addScl3(arm, part.area_moment, body.point, -part.area);
-    mju_scl3(velocity, motion.velocity, part.area);
-    AddCross(velocity, motion.velocity + 3, arm);
-    out.rate = -mju_dot3(normal, velocity) / body.solid_volume;
-  }
-  return out;
-}
 
 // Multiplier of the body's A in a fluid.
 mjtNum AddedMassScale(const BodyFluid& body, const Flow& flow, mjtNum lower_density) {

@@ -227,6 +227,11 @@ bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
     out->solid_volume += solid.volume;
     mju_addToScl3(out->solid_moment, solid.center, solid.volume);
   }
+  for (const Solid& solid : out->solids) {
+    mjtNum middle[3];
+    mju_scl3(middle, out->solid_moment, 1 / out->solid_volume);
+    out->solid_radius = std::max(out->solid_radius, mju_dist3(solid.center, middle) + solid.radius);
+  }
   if (automatic) out->volume = out->solid_volume;
   if (center.empty()) return true;
   mju_addScl3(out->center_shift, center.data(), out->solid_moment, -1 / out->solid_volume);

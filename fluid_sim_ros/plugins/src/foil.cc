@@ -36,12 +36,13 @@ mjtNum Angle(const mjModel* m, const mjData* d, const Deflection& deflection) {
 }
 
 // Share of a flat rectangle (half chord, half span) around a point that lies below the surface.
-mjtNum WetShare(const Medium& medium, const mjtNum* rotation, const mjtNum center_w[3],
-                mjtNum half_chord, mjtNum half_span) {
+mjtNum WetShare(const Medium& medium, const mjData* d, const mjtNum* rotation,
+                const mjtNum center_w[3], mjtNum half_chord, mjtNum half_span) {
   if (!medium.in_charge() || !medium.has_surface) return 1;
   const mjtNum reach =
       std::abs(half_chord * rotation[6]) + std::abs(half_span * rotation[7]) + mjMINVAL;
-  return std::clamp<mjtNum>(0.5 + 0.5 * (medium.surface - center_w[2]) / reach, 0, 1);
+  return std::clamp<mjtNum>(0.5 + 0.5 * (SurfaceHeight(medium, d, center_w) - center_w[2]) / reach,
+                            0, 1);
 }
 
 void AddWing(const mjModel* m, const mjData* d, const Medium& medium, const Foil& foil,
@@ -60,7 +61,7 @@ void AddWing(const mjModel* m, const mjData* d, const Medium& medium, const Foil
     mju_addTo3(center_w, pose.point_w);
     mju_copy3(speed, velocity);
     AddCross(speed, omega, sensed);
-    const mjtNum wet = WetShare(medium, pose.rotation, center_w, 0.5 * wing.chord, 0.5 * width);
+    const mjtNum wet = WetShare(medium, d, pose.rotation, center_w, 0.5 * wing.chord, 0.5 * width);
     Flow flows[2];
     const int count = FlowsAt(medium, m, d, foil.body, center_w, wet, flows);
     for (int k = 0; k < count; ++k) {
@@ -84,7 +85,7 @@ void AddAircraft(const mjModel* m, const mjData* d, const Medium& medium, const 
   mjtNum velocity_w[3], omega_w[3];
   PointVelocity(m, d, foil.body, pose.point_w, velocity_w, omega_w);
   const mjtNum wet =
-      WetShare(medium, pose.rotation, pose.point_w, 0.5 * foil.set.chord, 0.5 * foil.set.span);
+      WetShare(medium, d, pose.rotation, pose.point_w, 0.5 * foil.set.chord, 0.5 * foil.set.span);
   Flow flows[2];
   const int count = FlowsAt(medium, m, d, foil.body, pose.point_w, wet, flows);
   for (int k = 0; k < count; ++k) {

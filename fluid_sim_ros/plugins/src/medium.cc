@@ -32,6 +32,7 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
   FlowSample flow;
   if (lower) {
     AddStream(medium.current, state + kCurrentState, d->time, point_w[2], &flow);
+    AddWaves(medium.waves, d->time, point_w, &flow);
   }
   if (!lower || !medium.has_surface) {  // one fluid: what is called current and wind add up
     AddStream(medium.wind, state + kWindState, d->time, point_w[2], &flow);
@@ -57,9 +58,11 @@ Flow FluidAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower
 }  // namespace
 
 const char* const kMediumAttributes[] = {
-    "surface",   "density",      "viscosity",       "density_above", "viscosity_above",
-    "current",   "current_slew", "current_profile", "current_datum", "wind",
-    "wind_slew", "wind_profile", "wind_datum"};
+    "surface",        "density",         "viscosity",       "density_above", "viscosity_above",
+    "current",        "current_slew",    "current_profile", "current_datum", "wind",
+    "wind_slew",      "wind_profile",    "wind_datum",      "waves",         "wave_direction",
+    "wave_spreading", "wave_components", "wave_repeat",     "wave_cutoff",   "wave_seed",
+    "water_depth"};
 const int kMediumAttributeCount = sizeof(kMediumAttributes) / sizeof(kMediumAttributes[0]);
 
 bool ReadMedium(const mjModel* m, Medium* medium) {
@@ -91,7 +94,8 @@ bool ReadMedium(const mjModel* m, Medium* medium) {
     medium->wind.slew = 10;
     medium->current.datum = medium->wind.datum = medium->surface;
     if (!ReadStream(config, "current", &medium->current) ||
-        !ReadStream(config, "wind", &medium->wind)) {
+        !ReadStream(config, "wind", &medium->wind) ||
+        !ReadWaves(config, m, medium->has_surface, medium->surface, &medium->waves)) {
       return false;
     }
     if (medium->current.profile.from_ground() && !config.Has("current_datum")) {
@@ -119,6 +123,11 @@ mjtNum LowerViscosity(const Medium& medium, const mjModel* m) {
   return medium.in_charge() ? medium.viscosity[0] : m->opt.viscosity;
 }
 
+mjtNum SurfaceHeight(const Medium& medium, const mjData* d, const mjtNum point_w[3]) {
+  if (!medium.waves.any()) return medium.surface;
+  return WaveHeight(medium.waves, d->time, point_w);
+}
+
 int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
             const mjtNum point_w[3], mjtNum wet, Flow out[2]) {
   if (!medium.in_charge()) {
@@ -135,7 +144,9 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
   mjtNum point[3];
   mju_copy3(point, point_w);
   if (wet > 0) {
-    point[2] = std::min(point_w[2], medium.surface);
+    if (point_w[2] > medium.surface - medium.waves.reach) {
+      point[2] = std::min(point_w[2], SurfaceHeight(medium, d, point_w));
+    }
     out[count++] = FluidAt(medium, m, d, true, wet, point);
   }
   if (wet < 1) {

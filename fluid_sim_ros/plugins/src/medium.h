@@ -1,7 +1,7 @@
 // fluid_sim.medium: the fluids around the bodies, at most one per model.
 //
 // Two fluids with a level surface between them (water under air), or one fluid everywhere. Each
-// moves with the sum of its contributors (flow_sample.h): the current below, the wind above.
+// moves with the sum of its contributors (flow_sample.h): current and waves below, wind above.
 
 #ifndef FLUID_SIM_MEDIUM_H_
 #define FLUID_SIM_MEDIUM_H_
@@ -10,6 +10,7 @@
 
 #include "flow_sample.h"
 #include "stream.h"
+#include "waves.h"
 
 namespace fluid_sim {
 
@@ -32,10 +33,11 @@ struct Medium {
   bool equal = false;           // states the same as opt.*, which then stays in charge
   bool corrects_stock = false;  // MuJoCo's own forces act and know only opt.wind, not this flow
   bool has_surface = false;
-  mjtNum surface = 0;            // height of the free surface, world z [m]
+  mjtNum surface = 0;            // mean height of the free surface, world z [m]
   mjtNum density[2] = {0, 0};    // below, above [kg/m^3]
   mjtNum viscosity[2] = {0, 0};  // below, above [Pa s]
   Stream current, wind;
+  Waves waves;
 
   bool in_charge() const { return instance >= 0 && !equal; }
 };
@@ -49,6 +51,9 @@ bool ReadMedium(const mjModel* m, Medium* medium);
 // Density and viscosity of the lower (only) fluid.
 mjtNum LowerDensity(const Medium& medium, const mjModel* m);
 mjtNum LowerViscosity(const Medium& medium, const mjModel* m);
+
+// Height of the free surface over a point at the data's time, world z [m].
+mjtNum SurfaceHeight(const Medium& medium, const mjData* d, const mjtNum point_w[3]);
 
 // The fluids with a share in a body whose share `wet` lies below the surface, flow taken at the
 // world point; returns how many of out[2] are filled (1 or 2). Turbulence is that of the vehicle

@@ -71,7 +71,7 @@ int DiscFlows(const mjModel* m, const mjData* d, const Thruster& t, const mjtNum
   const mjtNum* center = d->site_xpos + 3 * t.site;
   mjtNum wet = 1;
   if (t.medium.in_charge() && t.medium.has_surface) {
-    const mjtNum depth = t.medium.surface - center[2];
+    const mjtNum depth = SurfaceHeight(t.medium, d, center) - center[2];
     wet = t.works == Works::kConstant ? (depth < 0 ? 0 : 1)
                                       : DiscShare(depth, 0.5 * t.curve.diameter, axis_w[2]);
   }
