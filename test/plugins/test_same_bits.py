@@ -12,6 +12,7 @@ from plugin_common import body_plugin, ellipsoid, free_body, load, set_medium, w
 SEA = {
     'density': 1025, 'viscosity': 1e-3, 'density_above': 1.2, 'viscosity_above': 1.8e-5,
     'surface': 0.1, 'current': [0.3, -0.1, 0.0], 'wind': [3, 1, 0],
+    'waves': 'jonswap .3 3', 'wave_components': 8, 'wave_spreading': 10, 'water_depth': 5,
 }  # fmt: skip
 STEPS = 60
 INTEGRATORS = ('RK4', 'implicitfast', 'implicit', 'Euler', 'discrete')

@@ -169,8 +169,11 @@ bool ReadSea(const Config& config, Choice* choice) {
   const mjtNum growth = std::pow(choice->cutoff / kLowest, 1 / choice->components);
   const mjtNum shortest = choice->period / (kLowest * (growth - 1));
   if (choice->repeat < shortest) {  // the first bin, the narrowest, holds no multiple
-    return config.Refuse("wave_repeat",
-                         ">= " + std::to_string(shortest) + " [s] for that many components");
+    const std::string needed = "wave_repeat >= " + std::to_string(shortest) + " [s]";
+    if (!config.Has("wave_repeat")) {
+      return config.Refuse("wave_components", "fewer, or " + needed + " for so many");
+    }
+    return config.Refuse("wave_repeat", needed + " for so many components, or fewer of them");
   }
   return true;
 }
