@@ -73,6 +73,7 @@ SHOTS = {
     'crazyflie': Shot(0.0),
     'amphibious': Shot(0.0),
     'aerosonde': Shot(0.0),
+    'remus100': Shot(0.0),
 }
 
 

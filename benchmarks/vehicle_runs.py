@@ -5,7 +5,6 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from vehicle_equations import rotation
 
 from fluid_sim_ros import Scene, Simulation
 
@@ -44,11 +43,15 @@ def set_all(simulation: Simulation, vehicle: str, thrust: ArrayLike) -> None:
 def held(simulation: Simulation, quat: Array, seconds: float) -> Array:
     """Run with the attitude held; return the velocity in world axes [m/s], one row per step."""
     velocity = np.empty((round(seconds / simulation.timestep), 3))
-    qvel, center_b = simulation.data.qvel, simulation.model.body_ipos[1]
-    # stopping the turn is a torque: the centre of mass keeps its velocity, not the origin
-    of_turn = rotation(quat) @ np.cross(np.eye(3), center_b).T
+    model, data, qvel = simulation.model, simulation.data, simulation.data.qvel
+    data.qpos[3:7] = quat
+    mujoco.mj_forward(model, data)
+    mass = np.empty((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, mass)
+    # stopping the turn is a torque: the momentum of body and water stays, no more
+    of_turn = np.linalg.solve(mass[:3, :3], mass[:3, 3:6])
     for row in velocity:
-        simulation.data.qpos[3:7] = quat
+        data.qpos[3:7] = quat
         qvel[:3] += of_turn @ qvel[3:6]
         qvel[3:6] = 0
         simulation.step()

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.added_mass import matrix6
+from fluid_sim_ros.physics.added_mass import added_mass_coriolis, matrix6
 from fluid_sim_ros.physics.arrays import Array, vectors
 
 
@@ -102,6 +102,34 @@ def cross_damping_wrench(terms: Sequence[CrossTerm], nu: ArrayLike) -> Array:
         product = np.abs(nu[..., term.abs_index]) * nu[..., term.lin_index]
         wrench[..., term.row] -= term.coef * product
     return wrench
+
+
+def without_convection(terms: Sequence[CrossTerm], matrix: ArrayLike) -> list[CrossTerm]:
+    """
+    Return cross terms less what an added mass gives of them.
+
+    Published sets state totals, such as M_uw with the Munk moment A_33 - A_11 in it. With these
+    terms and `added_mass_coriolis` of the same A the totals come out once, while nu_abs > 0
+    (backwards the part of the added mass changes sign, that of lift and drag does not).
+
+    Parameters
+    ----------
+    terms
+        Totals, each with two different velocities; a pair of them once in a row.
+    matrix
+        A about the reference point, shape (6, 6).
+
+    """
+    rest = []
+    for term in terms:
+        first, second = np.eye(6)[term.abs_index], np.eye(6)[term.lin_index]
+        # of second degree: f(x + y) - f(x) - f(y) leaves the mixed product
+        both, one, other = (
+            np.concatenate(added_mass_coriolis(matrix, nu[:3], nu[3:]))[term.row]
+            for nu in (first + second, first, second)
+        )
+        rest.append(term._replace(coef=term.coef + both - one - other))
+    return rest
 
 
 def secant_damping(d_linear: ArrayLike, d_quadratic: ArrayLike, nu: ArrayLike) -> Array:

@@ -5,6 +5,7 @@ from hypothesis.extra.numpy import arrays
 from strategies import floats, positive_matrix, seeds
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.added_mass import added_mass_coriolis
 from fluid_sim_ros.physics.fossen import (
     CrossTerm,
     cross_damping_wrench,
@@ -12,6 +13,7 @@ from fluid_sim_ros.physics.fossen import (
     linear_damping_matrix,
     quadratic_damping_matrix,
     secant_damping,
+    without_convection,
 )
 
 NU = arrays(float, 6, elements=floats(-5, 5))
@@ -51,6 +53,22 @@ def test_cross_terms():
     assert same == pytest.approx(
         damping_wrench(np.zeros((6, 6)), np.diag([0, 4.0, 0, 0, 0, 0]), nu)
     )
+
+
+@given(seeds())
+def test_cross_terms_less_the_convection_and_the_convection_are_the_totals(seed):
+    rng, added = np.random.default_rng(seed), positive_matrix(seed)
+    row, first, second = rng.integers(6), *rng.permutation(6)[:2]
+    total = CrossTerm(row, first, second, rng.normal())
+    (rest,) = without_convection([total], added)
+
+    def force(nu):
+        convected = np.concatenate(added_mass_coriolis(added, nu[:3], nu[3:]))
+        return (cross_damping_wrench([rest], nu) + convected)[row]
+
+    ahead, across = 2.0 * np.eye(6)[first], 3.0 * np.eye(6)[second]
+    mixed = (force(ahead + across) - force(ahead - across)) / 2
+    assert mixed == pytest.approx(-total.coef * 2.0 * 3.0, abs=1e-9)
 
 
 @given(NU, seeds())

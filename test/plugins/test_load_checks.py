@@ -42,6 +42,15 @@ BAD_BODIES = {
     ),
     'cross damping count': (hull(cross_damping='1 2 3'), ['cross_damping', '1 2 3', 'groups']),
     'cross damping index': (hull(cross_damping='1 2 7 1'), ['cross_damping', '1..6']),
+    'total of nothing': (
+        hull(added_mass='auto', cross_damping_total='true'), ['cross_damping_total', 'needs']
+    ),
+    'total of a square': (
+        hull(cross_damping='5 1 1 2', cross_damping_total='true'), ['5 1 1 2', 'two different']
+    ),
+    'total twice': (
+        hull(cross_damping='5 1 3 2 5 3 1 2', cross_damping_total='true'), ['once in a row']
+    ),
     'negative volume': (hull(volume=-3), ['volume', "'-3'", 'auto or a number > 0 [m^3]']),
     'zero volume': (hull(volume=0), ['volume', "'0'", '> 0']),
     'unknown word': (hull(drag='elipsoid'), ['drag', 'elipsoid', 'builtin, ellipsoid, none']),

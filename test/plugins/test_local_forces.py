@@ -111,6 +111,17 @@ def test_damping_with_cross_terms():
     )
 
 
+@pytest.mark.parametrize('added_mass', [[5, 40, 50, 1, 6, 7], 'auto', None])
+def test_a_total_is_the_same_with_any_added_mass(added_mass):
+    values = {} if added_mass is None else {'added_mass': added_mass}
+    plugin = body_plugin(cross_damping='5 1 3 -24', cross_damping_total='true', **values)
+    model, data = load(world(free_body(ellipsoid(AXES, 800) + plugin), medium={'density': 1025}))
+    data.qvel[:] = (1.5, 0, 0.2, 0, 0, 0)
+    mujoco.mj_kinematics(model, data)
+    # M_uw u w, the Munk moment of the added mass in it
+    assert explicit_force(model, data)[4] == pytest.approx(24 * 1.5 * 0.2, rel=1e-12)
+
+
 @pytest.mark.parametrize('index', range(6))
 @pytest.mark.parametrize('kind', ['linear_damping', 'quadratic_damping'])
 def test_every_coefficient_on_its_own(kind, index):

@@ -15,14 +15,6 @@ mjtNum AddedMassScale(const BodyFluid& body, const Flow& flow, mjtNum lower_dens
   return flow.lower ? 1 : 0;
 }
 
-// Wrench of a momentum (p, l) carried with the body: [p x w ; p x v + l x w] (Lamb 1932, art.
-// 124). Does no work.
-void AddConvection(const mjtNum momentum[6], const mjtNum nu[6], mjtNum out[6]) {
-  AddCross(out, momentum, nu + 3);
-  AddCross(out + 3, momentum, nu);
-  AddCross(out + 3, momentum + 3, nu + 3);
-}
-
 // A [w x v - R'Jdot_p q' + R'Du/Dt ; -R'Jdot_r q'] + convection, for nu relative to the flow.
 // The part A q'' of the acceleration goes into the inertia matrix.
 void AddAddedMass(const mjModel* m, const BodyFluid& body, const Flow& flow, const Motion& motion,

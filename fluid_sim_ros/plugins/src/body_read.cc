@@ -110,6 +110,33 @@ bool ReadCrossTerms(const Config& config, Damping* damping) {
   return true;
 }
 
+// Whether two terms are of one product in one row.
+bool SamePair(const CrossTerm& a, const CrossTerm& b) {
+  const bool same = a.absolute == b.absolute && a.linear == b.linear;
+  const bool swapped = a.absolute == b.linear && a.linear == b.absolute;
+  return a.row == b.row && (same || swapped);
+}
+
+// Published cross terms are totals: what the added mass gives of them is not to be there twice.
+bool ReadTotals(const mjModel* m, const Config& config, const Medium& medium, BodyFluid* out) {
+  const int total = config.Word("cross_damping_total", {"false", "true"});
+  if (total <= 0) return total == 0;
+  std::vector<CrossTerm>& terms = out->damping.cross;
+  if (terms.empty()) return config.Fail("cross_damping_total needs cross_damping");
+  for (size_t i = 0; i < terms.size(); ++i) {
+    bool once = terms[i].absolute != terms[i].linear;
+    for (size_t k = 0; k < i; ++k) once &= !SamePair(terms[i], terms[k]);
+    if (once) continue;
+    return config.Refuse("cross_damping",
+                         "with cross_damping_total, pairs of two different velocities, each pair "
+                         "once in a row");
+  }
+  mjtNum a[36] = {0};
+  AddScaled36(a, out->a, out->per_density ? LowerDensity(medium, m) : 1);
+  TakeOffConvection(a, &terms);
+  return true;
+}
+
 bool ReadDamping(const Config& config, Damping* damping) {
   bool linear, quadratic;
   if (!ReadMatrix6(config, "linear_damping", {6, 36}, "6 or 36 numbers [N s/m], [N s], [N m s]",
@@ -240,12 +267,11 @@ bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
 
 }  // namespace
 
-const char* const kBodyAttributes[] = {"added_mass",         "reference_point",
-                                       "linear_damping",     "quadratic_damping",
-                                       "cross_damping",      "drag",
-                                       "drag_area",          "drag_reynolds",
-                                       "rotational_damping", "volume",
-                                       "center_of_buoyancy", "geoms"};
+const char* const kBodyAttributes[] = {
+    "added_mass",    "reference_point",     "linear_damping", "quadratic_damping",
+    "cross_damping", "cross_damping_total", "drag",           "drag_area",
+    "drag_reynolds", "rotational_damping",  "volume",         "center_of_buoyancy",
+    "geoms"};
 const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
 
 bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, BodyFluid* out) {
@@ -255,7 +281,8 @@ bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, Bo
   if (!config.Numbers("reference_point", {3}, "3 numbers [m], body axes", &point)) return false;
   if (!point.empty()) mju_copy3(out->point, point.data());
   if (!ReadDrag(m, config, out) || !ReadAddedMass(m, config, out) ||
-      !ReadDamping(config, &out->damping) || !ReadBuoyancy(m, config, out)) {
+      !ReadDamping(config, &out->damping) || !ReadTotals(m, config, medium, out) ||
+      !ReadBuoyancy(m, config, out)) {
     return false;
   }
   if (!point.empty() && !out->added_mass && !out->damping.any) {

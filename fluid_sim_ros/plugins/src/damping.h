@@ -24,6 +24,10 @@ struct Damping {
   std::vector<CrossTerm> cross;
 };
 
+// Take off the cross terms, stated as totals, what the convection of an added mass A gives (the
+// Munk moment and its like), so that both together are the totals while nu_absolute > 0.
+void TakeOffConvection(const mjtNum a[36], std::vector<CrossTerm>* terms);
+
 // Wrench -(f_l D + f_q D_q |nu|) nu added to out[6]; the secant matrix to secant[36] unless null.
 // f_l and f_q are the shares of the linear and the quadratic part that act.
 void AddDamping(const Damping& damping, const mjtNum nu[6], mjtNum linear_share,

@@ -58,6 +58,14 @@ inline void AddScaled36(mjtNum* __restrict target, const mjtNum* __restrict sour
   for (int i = 0; i < 36; ++i) target[i] += scale * source[i];
 }
 
+// Wrench of a momentum (p, l) carried with the body, added: [p x w ; p x v + l x w] (Lamb 1932,
+// art. 124). Does no work.
+inline void AddConvection(const mjtNum momentum[6], const mjtNum nu[6], mjtNum out[6]) {
+  AddCross(out, momentum, nu + 3);
+  AddCross(out + 3, momentum, nu);
+  AddCross(out + 3, momentum + 3, nu + 3);
+}
+
 // out = S with S y = x cross y
 void CrossMatrix(mjtNum out[9], const mjtNum x[3]);
 
