@@ -8,6 +8,7 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.approach import Approach
 from fluid_sim_ros.control.gains import Gains, gain
+from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
@@ -83,9 +84,7 @@ class MultirotorController:
         self._across = Approach(gains.position, gains.max_speed, gains.max_acceleration)
         self._upward = Approach(gains.position, gains.max_climb, gains.max_lift)
         self._clock = StampClock()
-        self._integral = [0.0, 0.0, 0.0]
-        # The error to integrate at the next state: so a repeated state changes nothing.
-        self._pending = [0.0, 0.0, 0.0]
+        self._integral = Integral(gains.integral, gains.max_integral)
 
     @property
     def restarted(self) -> bool:
@@ -95,7 +94,8 @@ class MultirotorController:
     @property
     def integral_w(self) -> tuple[float, float, float]:
         """Acceleration that the integrator holds against wind [m/s^2], world axes."""
-        return (self._integral[0], self._integral[1], self._integral[2])
+        ax, ay, az = self._integral.value
+        return (ax, ay, az)
 
     def step(
         self,
@@ -130,10 +130,10 @@ class MultirotorController:
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         velocity_w = rot.to_world(r_wb, velocity_b)
         if self._clock.restarted:
-            self._integral[:] = self._pending[:] = (0.0, 0.0, 0.0)
+            self._integral.restart()
             self._across.restart(velocity_w[0], velocity_w[1])
             self._upward.restart(velocity_w[2], 0.0)
-        self._integrate(dt)
+        self._integral.advance(dt)
         error = self._speed_error(position_w, velocity_w, target_w, dt)
         force_w, limited = self._force(error)
         thrust = rot.to_body(r_wb, force_w)[2]
@@ -141,7 +141,10 @@ class MultirotorController:
 
         torque_b = self._torque(r_wb, omega_b, force_w, yaw)
         thrusts = self.allocator.allocate((0.0, 0.0, bounded, *torque_b))
-        self._pending[:] = (0.0, 0.0, 0.0) if limited or bounded != thrust else error
+        if limited or bounded != thrust:
+            self._integral.stand_still()
+        else:
+            self._integral.keep(error)
         return thrusts
 
     def _speed_error(
@@ -159,7 +162,7 @@ class MultirotorController:
 
     def _force(self, error: rot.Vector3) -> tuple[rot.Vector3, bool]:
         """Return the thrust vector [N], world axes, and whether tilt or its sign was limited."""
-        gains, i, plant = self.gains, self._integral, self.plant
+        gains, i, plant = self.gains, self._integral.value, self.plant
         # a third of the weight at least: the thrust axis stays defined, and points up
         floor = plant.weight / 3.0
         (ax, ay), (az, _) = self._across.acceleration, self._upward.acceleration
@@ -172,13 +175,6 @@ class MultirotorController:
         if sideways > allowed:
             fx, fy, limited = fx * allowed / sideways, fy * allowed / sideways, True
         return (fx, fy, fz), limited
-
-    def _integrate(self, dt: float) -> None:
-        """Grow the integrator by the last state's error, over the time since that state."""
-        gain, bound, integral = self.gains.integral * dt, self.gains.max_integral, self._integral
-        for axis in (0, 1, 2):
-            value = integral[axis] + gain * self._pending[axis]
-            integral[axis] = min(max(value, -bound), bound)
 
     def _torque(
         self, r_wb: rot.Rotation, omega_b: Sequence[float], force_w: rot.Vector3, yaw: float

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.gains import Gains, gain
+from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
 
 #: Attitude and depth before travel: a vehicle that rolls cannot point its thrust.
 PRIORITY = (('tx', 'ty'), ('fz',), ('tz',), ('fx', 'fy'))
-_NOTHING: rot.Vector3 = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class UnderwaterController:
 
     def __init__(self, plant: Plant, gains: UnderwaterGains | None = None) -> None:
         self.plant = plant
-        self.gains = gains or UnderwaterGains()
+        self.gains = gains = gains or UnderwaterGains()
         self.allocator = Allocator(plant.thruster_matrix, plant.thrust_limits, PRIORITY)
         if self.allocator.rank < 6:
             raise ConfigError(
@@ -73,10 +73,8 @@ class UnderwaterController:
                 '(thrusters for every direction)'
             )
         self._clock = StampClock()
-        self._integral = [0.0, 0.0, 0.0]
-        self._angular_integral = [0.0, 0.0, 0.0]
-        # The errors to integrate at the next state: so a repeated state changes nothing.
-        self._pending = (_NOTHING, _NOTHING)
+        self._integral = Integral(gains.integral, gains.max_integral)
+        self._angular_integral = Integral(gains.attitude_integral, gains.max_angular_integral)
 
     @property
     def restarted(self) -> bool:
@@ -122,10 +120,10 @@ class UnderwaterController:
 
         """
         dt = self._clock.advance(time)
-        if self._clock.restarted:
-            self._integral[:] = self._angular_integral[:] = _NOTHING
-            self._pending = (_NOTHING, _NOTHING)
-        self._integrate(dt)
+        for integral in (self._integral, self._angular_integral):
+            if self._clock.restarted:
+                integral.restart()
+            integral.advance(dt)
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         error_w = self._speed_error(
             position_w, rot.to_world(r_wb, velocity_b), depth, heading, speed_h, place_w
@@ -133,16 +131,12 @@ class UnderwaterController:
         error_b = self._rate_error(r_wb, omega_b, heading)
         wrench_b = (*self._force(r_wb, error_w), *self._torque(error_b))
         thrusts = self.allocator.allocate(wrench_b)
-        within = self.allocator.scale >= 1.0
-        self._pending = (error_w, error_b) if within else (_NOTHING, _NOTHING)
+        for integral, error in ((self._integral, error_w), (self._angular_integral, error_b)):
+            if self.allocator.scale >= 1.0:
+                integral.keep(error)
+            else:
+                integral.stand_still()
         return thrusts
-
-    def _integrate(self, dt: float) -> None:
-        """Grow the integrators by the last state's errors, over the time since that state."""
-        gains, (error_w, error_b) = self.gains, self._pending
-        _grow(self._integral, error_w, gains.integral * dt, gains.max_integral)
-        gain = gains.attitude_integral * dt
-        _grow(self._angular_integral, error_b, gain, gains.max_angular_integral)
 
     def _speed_error(
         self,
@@ -171,7 +165,7 @@ class UnderwaterController:
 
     def _force(self, r_wb: rot.Rotation, error_w: rot.Vector3) -> rot.Vector3:
         """Return the force [N], body axes."""
-        gain, (ix, iy, iz) = self.gains.velocity, self._integral
+        gain, (ix, iy, iz) = self.gains.velocity, self._integral.value
         moved = (1.0 + self.gains.added_mass) * self.plant.mass
         return rot.to_body(
             r_wb,
@@ -196,7 +190,7 @@ class UnderwaterController:
 
     def _torque(self, error_b: rot.Vector3) -> rot.Vector3:
         """Return the torque [N m], body axes."""
-        gain, (ix, iy, iz) = self.gains.rate, self._angular_integral
+        gain, (ix, iy, iz) = self.gains.rate, self._angular_integral.value
         moved = 1.0 + self.gains.added_mass
         jx, jy, jz = self.plant.inertia
         return (
@@ -204,9 +198,3 @@ class UnderwaterController:
             moved * jy * (gain * error_b[1] + iy),
             moved * jz * (gain * error_b[2] + iz),
         )
-
-
-def _grow(integral: list[float], error: rot.Vector3, gain: float, bound: float) -> None:
-    """Add gain times error to an integrator, within +-bound."""
-    for axis in (0, 1, 2):
-        integral[axis] = min(max(integral[axis] + gain * error[axis], -bound), bound)

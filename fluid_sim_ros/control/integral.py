@@ -1,0 +1,53 @@
+"""The integral term of a control law: bounded, and the same for a state that comes twice."""
+
+from collections.abc import Sequence
+
+
+class Integral:
+    """
+    Integrates errors on some axes: d(value)/dt = rate * error, within +-bound.
+
+    An error is kept when it is seen and integrated at the next state, over the time between the
+    two; so the answer to a repeated state is the same answer, and whether a limit bound is known
+    before its error counts (anti-windup).
+
+    Parameters
+    ----------
+    rate
+        Gain of the integral.
+    bound
+        Largest magnitude on each axis.
+    axes
+        How many.
+
+    Attributes
+    ----------
+    value
+        The integral, one number per axis.
+
+    """
+
+    def __init__(self, rate: float, bound: float, axes: int = 3) -> None:
+        self._rate = rate
+        self._bound = bound
+        self.value = [0.0] * axes
+        self._pending = (0.0,) * axes
+
+    def restart(self) -> None:
+        """Begin at zero."""
+        self.value = [0.0] * len(self.value)
+        self.stand_still()
+
+    def advance(self, dt: float) -> None:
+        """Integrate the error kept over the time since its state [s]."""
+        gain, bound, value = self._rate * dt, self._bound, self.value
+        for axis, error in enumerate(self._pending):
+            value[axis] = min(max(value[axis] + gain * error, -bound), bound)
+
+    def keep(self, error: Sequence[float]) -> None:
+        """Keep the errors of this state, one per axis."""
+        self._pending = tuple(error)
+
+    def stand_still(self) -> None:
+        """Keep nothing: a limit binds at this state."""
+        self._pending = (0.0,) * len(self.value)
