@@ -13,7 +13,7 @@ from fluid_sim_ros.gaits import Gaits
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
-from fluid_sim_ros.scene_schema import Gait, SceneFile, ScheduledEvent, VehicleFile
+from fluid_sim_ros.scene_schema import Gait, Home, SceneFile, ScheduledEvent, VehicleFile
 from fluid_sim_ros.schema import parse, read_yaml
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
 
@@ -53,7 +53,7 @@ class Scene:
         Name in config/scenes, or the stem of the given file.
     model_path
         The MJCF file.
-    description, medium, duration, keyframe, schedule, gait
+    description, medium, duration, keyframe, home, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
@@ -66,6 +66,7 @@ class Scene:
     medium: str | None = None
     duration: float = 10.0
     keyframe: str | None = None
+    home: Home = field(default_factory=Home)
     schedule: tuple[ScheduledEvent, ...] = ()
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
@@ -196,6 +197,7 @@ def _from_yaml(path: Path) -> Scene:
         medium=content.medium,
         duration=content.duration,
         keyframe=content.keyframe,
+        home=content.home,
         schedule=tuple(content.schedule),
         gait=content.gait,
         vehicles=vehicles,

@@ -1,8 +1,8 @@
 """The YAML schema of config/scenes and config/vehicles."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from fluid_sim_ros.schema import Name, NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.sensor_schema import SensorsFile
@@ -16,6 +16,20 @@ class VehicleFile(Strict):
     joints: list[str] | None = None
     sensors: SensorsFile = SensorsFile()
     source: str = ''
+
+
+class Home(Strict):
+    """
+    Where the origin of the world lies on the Earth (WGS 84), and when.
+
+    ``latitude`` and ``longitude`` [deg], ``altitude`` of the plane z = 0 [m], ``year`` of the
+    magnetic field (decimal).
+    """
+
+    latitude: Annotated[Number, Field(ge=-90, le=90)] = 47.397742  # PX4's simulators, Zurich
+    longitude: Annotated[Number, Field(ge=-180, le=180)] = 8.545594
+    altitude: Annotated[Number, Field(ge=-5000, le=20000)] = 0.0
+    year: Number = 2026.0
 
 
 class BodyWrench(Strict):
@@ -67,5 +81,6 @@ class SceneFile(Strict):
     vehicles: dict[Name, str | VehicleFile] | None = None
     duration: Positive = 10.0
     keyframe: str | None = None
+    home: Home = Home()
     schedule: list[ScheduledEvent] = []
     gait: dict[Name, Gait] = {}

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.schema import NotNegative, Number, Positive, Strict, read_yaml
+from fluid_sim_ros.schema import NotNegative, Number, Positive, Strict, Vector, read_yaml
 
 Limits = Annotated[list[Number], Field(min_length=2, max_length=2)]
 
@@ -107,14 +107,80 @@ class ImuFile(SensorFile):
     gyroscope: Channel = Channel()
 
 
+class MagnetometerFile(SensorFile):
+    """Magnetic flux density [T]."""
+
+    kind = 'magnetometer'
+    field: Channel = Channel()
+
+
+class BarometerFile(SensorFile):
+    """Static pressure [Pa], for altitude."""
+
+    kind = 'barometer'
+    pressure: Channel = Channel()
+
+
+class PressureFile(SensorFile):
+    """Absolute pressure of the water [Pa], for depth."""
+
+    kind = 'pressure'
+    pressure: Channel = Channel()
+
+
+class GnssFile(SensorFile):
+    """Position of the antenna, east and north, and up [m], and its velocity [m/s]."""
+
+    kind = 'gnss'
+    horizontal: Channel = Channel()
+    vertical: Channel = Channel()
+    velocity: Channel = Channel()
+
+
+class AirspeedFile(SensorFile):
+    """Differential pressure of a pitot tube along x of its axes [Pa]."""
+
+    kind = 'airspeed'
+    pressure: Channel = Channel()
+
+
+class RangefinderFile(SensorFile):
+    """Distance along ``direction`` of its axes [m]; beyond the range it is infinite."""
+
+    kind = 'rangefinder'
+    distance: Channel = Channel()
+    direction: Vector = [0.0, 0.0, -1.0]
+
+
+class DvlFile(SensorFile):
+    """
+    Doppler velocity log: velocity over the bed [m/s] by four beams, and height over it [m].
+
+    The beams point down (-z of its axes), tilted by ``beam_angle`` [deg] towards the four corners;
+    ``altitude.range`` bounds the height of bottom lock.
+    """
+
+    kind = 'dvl'
+    velocity: Channel = Channel()
+    altitude: Channel = Channel()
+    beam_angle: Annotated[Number, Field(ge=0, lt=90)] = 22.5
+
+
 class SensorsFile(Strict):
     """
     The sensors of a vehicle.
 
-    ``dither`` adds uniform noise within one quantum either way to every reading of the IMU,
-    the magnetometer and the barometer, so that no two readings are the same: autopilots take a
-    constant reading for a dead sensor.
+    ``dither`` adds uniform noise within one quantum either way to every reading of the IMU, the
+    magnetometer, the barometer and the pressure sensor: autopilots take a constant reading for a
+    dead sensor.
     """
 
     imu: ImuFile | None = None
+    magnetometer: MagnetometerFile | None = None
+    barometer: BarometerFile | None = None
+    pressure: PressureFile | None = None
+    gnss: GnssFile | None = None
+    airspeed: AirspeedFile | None = None
+    rangefinder: RangefinderFile | None = None
+    dvl: DvlFile | None = None
     dither: bool = False

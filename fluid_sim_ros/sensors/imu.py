@@ -36,12 +36,11 @@ class Imu(Sensor):
         super().__init__(carrier, config, channels, _DITHER)
         self.specific_force = self.values[:3]
         self.angular_velocity = self.values[3:]
-        self._place = self.mount.position_b.tolist()
 
     def _measure(self, values: Array) -> bool:
         # plain floats: three times as fast as arrays of three
         wx, wy, wz, fx, fy, fz, ax, ay, az = self._state[_RATES_TO_ACCELERATIONS].tolist()
-        rx, ry, rz = self._place
+        rx, ry, rz = self._arm
         along = wx * rx + wy * ry + wz * rz
         square = wx * wx + wy * wy + wz * wz
         values[:] = (

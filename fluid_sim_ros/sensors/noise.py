@@ -36,6 +36,8 @@ class Errors:
     dither
         Quantum per channel within which uniform noise is added either way, where there is no
         resolution that says it; empty: no dither.
+    infinite_beyond
+        Values beyond the range become infinite instead of the range's end.
 
     """
 
@@ -46,6 +48,7 @@ class Errors:
         seed: int,
         name: str,
         dither: Sequence[float] = (),
+        infinite_beyond: bool = False,
     ) -> None:
         axes = [count for _, count in channels]
 
@@ -63,6 +66,9 @@ class Errors:
         self._quantum = per_axis([c.resolution or 1.0 for c in stated])
         self._low = per_axis([c.range[0] if c.range else -np.inf for c in stated])
         self._high = per_axis([c.range[1] if c.range else np.inf for c in stated])
+        infinite = np.full(self._width, np.inf)
+        self._below = -infinite if infinite_beyond else self._low
+        self._above = infinite if infinite_beyond else self._high
 
         self._random = bool(self._white.any() or self._walk.any() or self._dither.any())
         self._rounds = bool(self._rounded.any())
@@ -89,10 +95,12 @@ class Errors:
             np.copyto(values, scratch, where=self._rounded)
         if not self._saturates:
             return 0
-        beyond = np.count_nonzero((values < self._low) | (values > self._high))
+        below, above = values < self._low, values > self._high
+        beyond = int(np.count_nonzero(below) + np.count_nonzero(above))
         if beyond:
-            np.clip(values, self._low, self._high, out=values)
-        return int(beyond)
+            np.copyto(values, self._below, where=below)
+            np.copyto(values, self._above, where=above)
+        return beyond
 
     def _draw(self, block: int) -> None:
         """Draw what is added to the readings of a block."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.environment import whole_steps
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.runner import period_steps
 from fluid_sim_ros.sensor_schema import Channel, SensorFile
 from fluid_sim_ros.sensors.noise import Errors
@@ -19,6 +20,9 @@ from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.vehicle import Vehicle
 
 Array = NDArray[np.float64]
+
+#: Linear and angular velocity lie side by side.
+_VELOCITIES = slice(nat.LINEAR_VELOCITY.start, nat.ANGULAR_VELOCITY.stop)
 
 
 @dataclass(frozen=True)
@@ -95,6 +99,13 @@ class Mount:
         turned: Array = vectors_b @ self.rotation_sb.T
         return turned
 
+    def to_base(self, vectors_s: Array) -> Array:
+        """Return vectors in the sensor's axes, shape (..., 3), in those of base_link."""
+        if self.rotation_sb is None:
+            return vectors_s
+        turned: Array = vectors_s @ self.rotation_sb
+        return turned
+
 
 @dataclass(frozen=True)
 class SavedSensor:
@@ -122,6 +133,10 @@ class Sensor(ABC):
 
     Attributes
     ----------
+    where
+        Scene, vehicle and sensor, as errors begin.
+    config, mount
+        As above, and where it sits.
     period, latency
         Steps between two readings, and from what is measured to its reading.
     fresh
@@ -142,6 +157,8 @@ class Sensor(ABC):
 
     #: Its numbers need ``Simulation.observe(forces=True)``.
     needs_forces: ClassVar[bool] = False
+    #: Readings beyond the range are infinite instead of the range's end.
+    infinite_beyond: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -152,14 +169,17 @@ class Sensor(ABC):
     ) -> None:
         simulation, vehicle = carrier.simulation, carrier.vehicle
         where = f"{simulation.scene.name}: vehicle '{vehicle.name}': sensors.{config.kind}"
+        self.where = where
         self.config = config
         self.mount = Mount.of_site(carrier, config.site, where)
         self.period = period_steps(config.rate, simulation.timestep, where)
         self.latency = whole_steps(config.latency, simulation.timestep, f'{where}: latency')
-        self._state = carrier.state
+        self._simulation, self._state = simulation, carrier.state
+        self._arm = self.mount.position_b.tolist()
+        self._matrix = np.empty(9)
         self._errors = Errors(
             channels, config.rate, carrier.seed, f'{vehicle.name}/{config.kind}',
-            dither if carrier.dither else (),
+            dither if carrier.dither else (), self.infinite_beyond,
         )  # fmt: skip
         width = sum(count for _, count in channels)
         self.values = np.zeros(width)
@@ -210,6 +230,26 @@ class Sensor(ABC):
 
     def _convert(self) -> None:  # noqa: B027 (most have nothing to derive)
         """Derive further numbers from a new reading."""
+
+    # ---- what subclasses measure with ------------------------------------------------------
+
+    def _rotation_bw(self) -> Array:
+        """Return the matrix that turns world vectors into base_link's axes, shape (3, 3)."""
+        mujoco.mju_quat2Mat(self._matrix, self._state[nat.QUATERNION])
+        return self._matrix.reshape(3, 3).T
+
+    def _position_w(self) -> Array:
+        """Return the sensor's place in the world [m], shape (3,)."""
+        place: Array = self._state[nat.POSITION] + self.mount.position_b @ self._rotation_bw()
+        return place
+
+    def _velocity_b(self) -> Array:
+        """Return the velocity of the sensor's place [m/s], base_link axes: v + w x r."""
+        vx, vy, vz, wx, wy, wz = self._state[_VELOCITIES].tolist()
+        rx, ry, rz = self._arm
+        return np.array([vx + wy * rz - wz * ry, vy + wz * rx - wx * rz, vz + wx * ry - wy * rx])
+
+    # ---- save and load ---------------------------------------------------------------------
 
     def save_state(self) -> SavedSensor:
         """Return the present reading and those under way."""

@@ -4,7 +4,12 @@ import math
 
 from fluid_sim_ros.environment import NEVER
 from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.sensors.airspeed import Airspeed
+from fluid_sim_ros.sensors.beams import Dvl, Rangefinder
+from fluid_sim_ros.sensors.gnss import Gnss
 from fluid_sim_ros.sensors.imu import Imu
+from fluid_sim_ros.sensors.magnetometer import Magnetometer
+from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
 from fluid_sim_ros.sensors.sensor import Carrier, SavedSensor, Sensor
 from fluid_sim_ros.simulation import Simulation
 
@@ -30,8 +35,8 @@ class SensorSuite:
 
     Attributes
     ----------
-    imu
-        The sensor, or None where the vehicle has none.
+    imu, magnetometer, barometer, pressure, gnss, airspeed, rangefinder, dvl
+        Each a sensor, or None where the vehicle has none.
     sensors
         Those that there are.
     period
@@ -60,8 +65,19 @@ class SensorSuite:
             simulation, target, simulation.observe(forces=False)[index],
             simulation.seed if seed is None else seed, config.dither,
         )  # fmt: skip
-        self.imu = Imu(carrier, config.imu) if config.imu else None
-        each = (self.imu,)
+        c = config
+        self.imu = Imu(carrier, c.imu) if c.imu else None
+        self.magnetometer = Magnetometer(carrier, c.magnetometer) if c.magnetometer else None
+        self.barometer = Barometer(carrier, c.barometer) if c.barometer else None
+        self.pressure = WaterPressure(carrier, c.pressure) if c.pressure else None
+        self.gnss = Gnss(carrier, c.gnss) if c.gnss else None
+        self.airspeed = Airspeed(carrier, c.airspeed) if c.airspeed else None
+        self.rangefinder = Rangefinder(carrier, c.rangefinder) if c.rangefinder else None
+        self.dvl = Dvl(carrier, c.dvl) if c.dvl else None
+        each = (
+            self.imu, self.magnetometer, self.barometer, self.pressure, self.gnss, self.airspeed,
+            self.rangefinder, self.dvl,
+        )  # fmt: skip
         self.sensors: tuple[Sensor, ...] = tuple(sensor for sensor in each if sensor)
         periods = [steps for s in self.sensors for steps in (s.period, s.latency)]
         self.period = math.gcd(*periods) or NEVER

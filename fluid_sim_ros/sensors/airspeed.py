@@ -1,0 +1,48 @@
+"""The airspeed sensor: a pitot tube."""
+
+import math
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.atmosphere import DENSITY
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.sensor_schema import AirspeedFile
+from fluid_sim_ros.sensors.fluids import Fluids
+from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+
+
+class Airspeed(Sensor):
+    """
+    Differential pressure q = rho v |v| / 2 of the flow along x of the mount, wind included.
+
+    v is the component of the velocity relative to the air (incompressible flow, no error of the
+    tube's place or of cross flow), rho the density that the scene's forces see. Without a reading
+    while it is under water.
+
+    Attributes
+    ----------
+    differential_pressure
+        [Pa]; negative in flow from behind.
+    airspeed
+        Indicated airspeed: the speed that gives this pressure at sea level's standard density
+        [m/s]; negative in flow from behind.
+
+    """
+
+    differential_pressure = airspeed = 0.0
+
+    def __init__(self, carrier: Carrier, config: AirspeedFile) -> None:
+        super().__init__(carrier, config, ((config.pressure, 1),))
+        fluids = Fluids.of(carrier.simulation)
+        self._surface, self._density = fluids.surface, fluids.air_density
+        if not self._density > 0:
+            raise ConfigError(f'{self.where}: the scene has no air')
+
+    def _measure(self, values: Array) -> bool:
+        flow_b = self._velocity_b() - self._rotation_bw() @ self._state[nat.MEDIUM_VELOCITY]
+        speed = float(self.mount.to_sensor(flow_b)[0])
+        values[0] = 0.5 * self._density * speed * abs(speed)
+        return bool(self._position_w()[2] >= self._surface)
+
+    def _convert(self) -> None:
+        self.differential_pressure = q = float(self.values[0])
+        self.airspeed = math.copysign(math.sqrt(2.0 * abs(q) / DENSITY), q)

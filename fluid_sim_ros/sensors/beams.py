@@ -1,0 +1,121 @@
+"""Sensors that look along rays: rangefinder and Doppler velocity log."""
+
+import math
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.sensor_schema import Channel, DvlFile, RangefinderFile, SensorFile
+from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+
+#: Rays step over the geoms of the vehicle's moving parts, at most this many.
+_OWN_PARTS = 64
+#: How far a ray goes on behind an own part [m].
+_STEP = 1e-6
+
+
+class _Looking(Sensor):
+    """A sensor with rays; needs the geoms' places at this boundary, which come with the forces."""
+
+    needs_forces = True
+
+    def __init__(
+        self, carrier: Carrier, config: SensorFile, channels: Sequence[tuple[Channel, int]]
+    ) -> None:
+        super().__init__(carrier, config, channels)
+        self._geom = np.zeros(1, dtype=np.int32)
+        self._base = carrier.vehicle.body_id
+        self._root = carrier.simulation.model.body_rootid[self._base]
+
+    def _distance(self, start_w: Array, direction_w: Array) -> float:
+        """Return the distance [m] along a unit vector to a geom not of the vehicle, or inf."""
+        model, data = self._simulation.model, self._simulation.observed
+        base = self._base
+        start, gone = start_w, 0.0
+        for _ in range(_OWN_PARTS):
+            distance = mujoco.mj_ray(model, data, start, direction_w, None, 1, base, self._geom)
+            if distance < 0:
+                return math.inf
+            gone += float(distance)
+            if model.body_rootid[model.geom_bodyid[self._geom[0]]] != self._root:
+                return gone
+            gone += _STEP
+            start = start_w + gone * direction_w
+        return math.inf
+
+
+class Rangefinder(_Looking):
+    """
+    Distance to the nearest geom along a ray.
+
+    The vehicle's own geoms are looked through, as are water surfaces.
+
+    Attributes
+    ----------
+    distance
+        [m]; +inf: nothing within the range, -inf: nearer than the range.
+
+    """
+
+    infinite_beyond = True
+    distance = math.inf
+
+    def __init__(self, carrier: Carrier, config: RangefinderFile) -> None:
+        super().__init__(carrier, config, ((config.distance, 1),))
+        direction = np.array(config.direction)
+        length = float(np.linalg.norm(direction))
+        if not length > 0:
+            raise ConfigError(f'{self.where}: direction {config.direction}: must not be zero')
+        self._direction_b = self.mount.to_base(direction / length)
+
+    def _measure(self, values: Array) -> bool:
+        values[0] = self._distance(self._position_w(), self._direction_b @ self._rotation_bw())
+        return True
+
+    def _convert(self) -> None:
+        self.distance = float(self.values[0])
+
+
+class Dvl(_Looking):
+    """
+    Velocity over the bed.
+
+    There is bottom lock, and so a reading, while three of the four beams find a geom whose height
+    below the sensor is within the range of ``altitude``.
+
+    Attributes
+    ----------
+    velocity
+        [m/s], axes of the mount, shape (3,).
+    altitude
+        Mean height of the sensor over what the beams meet, along -z of its axes [m].
+
+    """
+
+    altitude = 0.0
+
+    def __init__(self, carrier: Carrier, config: DvlFile) -> None:
+        super().__init__(carrier, config, ((config.velocity, 3), (config.altitude, 1)))
+        self.velocity = self.values[:3]
+        tilt = math.radians(config.beam_angle)
+        self._down = math.cos(tilt)
+        out = math.sin(tilt) / math.sqrt(2.0)
+        corners = [(sx * out, sy * out, -self._down) for sx in (1, -1) for sy in (1, -1)]
+        self._beams_b = self.mount.to_base(np.array(corners))
+        self._limits = config.altitude.range or [0.0, math.inf]
+
+    def _measure(self, values: Array) -> bool:
+        start_w, (low, high) = self._position_w(), self._limits
+        beams_w = self._beams_b @ self._rotation_bw()
+        heights = [self._down * self._distance(start_w, beam) for beam in beams_w]
+        locked = [height for height in heights if low <= height <= high and height < math.inf]
+        if len(locked) < 3:
+            return False
+        values[:3] = self.mount.to_sensor(self._velocity_b())
+        values[3] = sum(locked) / len(locked)
+        return True
+
+    def _convert(self) -> None:
+        self.altitude = float(self.values[3])

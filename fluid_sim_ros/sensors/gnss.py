@@ -1,0 +1,39 @@
+"""The receiver of a satellite navigation system."""
+
+from fluid_sim_ros.sensor_schema import GnssFile
+from fluid_sim_ros.sensors.fluids import Fluids
+from fluid_sim_ros.sensors.geodesy import LocalFrame
+from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+
+
+class Gnss(Sensor):
+    """
+    Position and velocity of the antenna; without a reading while it is under water.
+
+    Attributes
+    ----------
+    position_w, velocity_w
+        East, north, up: [m] from home, and [m/s], shape (3,) each.
+    latitude, longitude, altitude
+        WGS 84 [deg], [deg], [m]; the altitude in the datum of the home's.
+
+    """
+
+    latitude = longitude = altitude = 0.0
+
+    def __init__(self, carrier: Carrier, config: GnssFile) -> None:
+        channels = ((config.horizontal, 2), (config.vertical, 1), (config.velocity, 3))
+        super().__init__(carrier, config, channels)
+        self.position_w, self.velocity_w = self.values[:3], self.values[3:]
+        self._surface = Fluids.of(carrier.simulation).surface
+        self._frame = LocalFrame(carrier.simulation.scene.home)
+
+    def _measure(self, values: Array) -> bool:
+        values[:3] = self._position_w()
+        values[3:] = self._velocity_b() @ self._rotation_bw()
+        return bool(values[2] >= self._surface)
+
+    def _convert(self) -> None:
+        self.latitude, self.longitude, self.altitude = self._frame.geodetic(
+            *self.position_w.tolist()
+        )

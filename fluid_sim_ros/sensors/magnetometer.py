@@ -1,0 +1,57 @@
+"""The magnetometer, and the Earth's field at home."""
+
+import numpy as np
+from pygeomag import GeoMag
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.scene_schema import Home
+from fluid_sim_ros.sensor_schema import MagnetometerFile
+from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+
+#: Dither of a magnetometer without resolution [T]: 1 mG.
+_DITHER = (1e-7,)
+
+
+def earth_field(home: Home) -> Array:
+    """
+    Return the Earth's magnetic flux density at home [T], world axes (east, north, up).
+
+    The World Magnetic Model (Chulliat et al., NOAA/NCEI and BGS) of the home's year, evaluated by
+    pygeomag.
+
+    Raises
+    ------
+    ConfigError
+        If the year is outside the model's five years.
+
+    """
+    model = GeoMag()
+    try:
+        field = model.calculate(
+            glat=home.latitude, glon=home.longitude, alt=home.altitude / 1000.0, time=home.year
+        )
+    except ValueError as error:
+        raise ConfigError(f'home: year {home.year:g}: {error}') from None
+    # pygeomag: north, east, down in nanotesla
+    return np.array([field.y, field.x, -field.z]) * 1e-9
+
+
+class Magnetometer(Sensor):
+    """
+    The Earth's field in the axes of the mount; the vehicle's own magnetism is left out.
+
+    Attributes
+    ----------
+    field
+        Magnetic flux density [T], shape (3,).
+
+    """
+
+    def __init__(self, carrier: Carrier, config: MagnetometerFile) -> None:
+        super().__init__(carrier, config, ((config.field, 3),), _DITHER)
+        self.field = self.values
+        self.field_w = earth_field(carrier.simulation.scene.home)
+
+    def _measure(self, values: Array) -> bool:
+        values[:] = self.mount.to_sensor(self._rotation_bw() @ self.field_w)
+        return True

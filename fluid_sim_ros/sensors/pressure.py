@@ -1,0 +1,92 @@
+"""Barometer and water pressure sensor: the static pressure of what is around them."""
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.atmosphere import (
+    pressure_altitude,
+    standard_pressure,
+    standard_temperature,
+)
+from fluid_sim_ros.sensor_schema import BarometerFile, PressureFile
+from fluid_sim_ros.sensors.fluids import Fluids
+from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+
+#: Dither of a pressure sensor without resolution [Pa]: 8 cm of air, 0.1 mm of water.
+_DITHER = (1.0,)
+
+
+class _Static(Sensor):
+    """
+    Static pressure: the standard atmosphere above the surface, hydrostatic below.
+
+        p = p_ISA(altitude)                      in air
+        p = p_ISA(altitude of surface) + rho g d at depth d in water
+
+    The dynamic pressure of the flow past the vehicle is left out.
+    """
+
+    def __init__(self, carrier: Carrier, config: BarometerFile | PressureFile) -> None:
+        super().__init__(carrier, config, ((config.pressure, 1),), _DITHER)
+        self._fluids = Fluids.of(carrier.simulation)
+        self._home = carrier.simulation.scene.home.altitude
+        gravity = -float(carrier.simulation.model.opt.gravity[2])
+        self._weight = self._fluids.water_density * gravity
+        self._at_surface = standard_pressure(self._home + self._fluids.surface)
+        self.pressure = 0.0
+
+    def _measure(self, values: Array) -> bool:
+        height = self._position_w()[2]
+        depth = self._fluids.surface - height
+        if depth > 0:
+            values[0] = self._at_surface + self._weight * depth
+        else:
+            values[0] = standard_pressure(self._home + height)
+        return True
+
+
+class Barometer(_Static):
+    """
+    A barometer.
+
+    Attributes
+    ----------
+    pressure
+        [Pa].
+    altitude
+        Where the standard atmosphere has this pressure [m].
+    temperature
+        Of the standard atmosphere there [K].
+
+    """
+
+    altitude = 0.0
+    temperature = 0.0
+
+    def _convert(self) -> None:
+        self.pressure = float(self.values[0])
+        self.altitude = pressure_altitude(self.pressure)
+        self.temperature = standard_temperature(self.altitude)
+
+
+class WaterPressure(_Static):
+    """
+    An absolute pressure sensor of a vehicle in water.
+
+    Attributes
+    ----------
+    pressure
+        [Pa].
+    depth
+        Below the mean surface by that pressure [m]; about 0 in air.
+
+    """
+
+    depth = 0.0
+
+    def __init__(self, carrier: Carrier, config: PressureFile) -> None:
+        super().__init__(carrier, config)
+        if not self._weight > 0:
+            raise ConfigError(f'{self.where}: the scene has no water, or no gravity downwards')
+
+    def _convert(self) -> None:
+        self.pressure = float(self.values[0])
+        self.depth = (self.pressure - self._at_surface) / self._weight
