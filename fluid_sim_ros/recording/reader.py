@@ -13,22 +13,31 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-import zstandard
-
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.recording.description import LogError, RunDescription
-
-MAGIC = b'\x89MCAP0\r\n'
-_HEADER, _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK = 1, 2, 3, 4, 5, 6
-_CHUNK_INDEX, _ATTACHMENT, _DATA_END = 8, 9, 15
-#: Records that hold nothing we need: message index, attachment index, statistics, metadata,
-#: metadata index, summary offset.
-_OTHERS = (7, 10, 11, 12, 13, 14)
-_RECORD = struct.Struct('<BQ')
-_MESSAGE_HEAD = struct.Struct('<HIQQ')
-_FOOTER_SIZE = _RECORD.size + 20
-#: A chunk that claims to be larger is damaged; ours are closed at 1 MiB [bytes].
-_LARGEST_CHUNK = 1 << 28
+from fluid_sim_ros.recording.records import (
+    ATTACHMENT,
+    CHANNEL,
+    CHUNK,
+    CHUNK_INDEX,
+    DATA_END,
+    FOOTER,
+    FOOTER_SIZE,
+    HEADER,
+    MAGIC,
+    MESSAGE,
+    MESSAGE_HEAD,
+    OTHERS,
+    RECORD,
+    SCHEMA,
+    BadRecordError,
+    Chunk,
+    Fields,
+    decompress,
+    read_attachment,
+    read_chunk_head,
+    records,
+)
 
 
 class LogMessage(NamedTuple):
@@ -49,21 +58,6 @@ class LogTopic:
     type: str
     definition: str
     metadata: dict[str, str]
-
-
-@dataclass
-class _Chunk:
-    """Where a chunk's compressed data stands."""
-
-    offset: int
-    size: int
-    compression: bytes
-    uncompressed_size: int
-    crc: int
-
-
-class _BadRecordError(Exception):
-    """A record does not hold what its kind must hold."""
 
 
 @dataclass
@@ -94,7 +88,7 @@ class Log:
     topics: dict[int, LogTopic] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     _schemas: dict[int, tuple[str, str]] = field(default_factory=dict)
-    _chunks: list[_Chunk] = field(default_factory=list)
+    _chunks: list[Chunk] = field(default_factory=list)
 
     def messages(self, topics: Collection[str] | None = None) -> Iterator[LogMessage]:
         """Return every message of some topics (default: all) in the order of the file."""
@@ -106,14 +100,14 @@ class Log:
         with self.path.open('rb') as stream:
             for chunk in self._chunks:
                 stream.seek(chunk.offset)
-                content = _decompress(chunk, stream.read(chunk.size))
-                for kind, begin, end in _records(content):
-                    if kind != _MESSAGE:
+                content = decompress(chunk, stream.read(chunk.size))
+                for kind, begin, end in records(content):
+                    if kind != MESSAGE:
                         continue
-                    channel, step, log_ns, wall_ns = _MESSAGE_HEAD.unpack_from(content, begin)
+                    channel, step, log_ns, wall_ns = MESSAGE_HEAD.unpack_from(content, begin)
                     name = wanted.get(channel)
                     if name is not None:
-                        data = content[begin + _MESSAGE_HEAD.size : end]
+                        data = content[begin + MESSAGE_HEAD.size : end]
                         yield LogMessage(name, step, log_ns, wall_ns, data)
 
     def topic(self, name: str) -> LogTopic:
@@ -194,13 +188,13 @@ class _Scan:
         at, end = len(MAGIC), len(content)
         ended = False
         while at < end and not ended:
-            if end - at < _RECORD.size:
+            if end - at < RECORD.size:
                 break
-            kind, size = _RECORD.unpack_from(content, at)
-            after = at + _RECORD.size + size
+            kind, size = RECORD.unpack_from(content, at)
+            after = at + RECORD.size + size
             if after > end:
                 break
-            ended = kind == _DATA_END
+            ended = kind == DATA_END
             self._take(kind, at, after)
             at = after
         if ended:
@@ -216,34 +210,34 @@ class _Scan:
         self._log.faults.append(line)
 
     def _take(self, kind: int, at: int, after: int) -> None:
-        begin, content = at + _RECORD.size, self._content
+        begin, content = at + RECORD.size, self._content
         try:
-            if kind == _HEADER:
-                fields = _Fields(content[begin:after])
+            if kind == HEADER:
+                fields = Fields(content[begin:after])
                 fields.string()
                 self._log.library = fields.string()
-            elif kind == _CHUNK:
+            elif kind == CHUNK:
                 self._take_chunk(at, begin, after)
-            elif kind == _ATTACHMENT:
-                name, data = _attachment(content[begin:after])
+            elif kind == ATTACHMENT:
+                name, data = read_attachment(content[begin:after])
                 self._log.attachments[name] = data
-            elif kind == _DATA_END:
+            elif kind == DATA_END:
                 stated = struct.unpack_from('<I', content, begin)[0] if after - begin == 4 else 0
                 if stated != zlib.crc32(memoryview(content)[:at]):
                     self._fault('the checksum of the data section is wrong: something is damaged')
-            elif kind not in _OTHERS:
+            elif kind not in OTHERS:
                 self._fault(f'unknown record of kind {kind} at byte {at}')
-        except _BadRecordError as error:
+        except BadRecordError as error:
             self._fault(f'{_KINDS.get(kind, "record")} at byte {at}: {error}')
 
     def _take_chunk(self, at: int, begin: int, after: int) -> None:
-        chunk = _chunk(self._content, begin, after)
+        chunk = read_chunk_head(self._content, begin, after)
         data = self._content[chunk.offset : chunk.offset + chunk.size]
-        content = _decompress(chunk, data)
-        for kind, first, last in _records(content):
-            if kind == _SCHEMA:
+        content = decompress(chunk, data)
+        for kind, first, last in records(content):
+            if kind == SCHEMA:
                 self._take_schema(content[first:last])
-            elif kind == _CHANNEL:
+            elif kind == CHANNEL:
                 self._take_channel(content[first:last])
             else:  # they stand before the messages
                 break
@@ -251,18 +245,18 @@ class _Scan:
         self._seen.add(at)
 
     def _take_schema(self, record: bytes) -> None:
-        fields = _Fields(record)
+        fields = Fields(record)
         number = fields.uint16()
         name = fields.string()
         fields.string()
         self._log._schemas[number] = (name, fields.block().decode())
 
     def _take_channel(self, record: bytes) -> None:
-        fields = _Fields(record)
+        fields = Fields(record)
         number, schema = fields.uint16(), fields.uint16()
         topic = fields.string()
         fields.string()
-        pairs = _Fields(fields.block())
+        pairs = Fields(fields.block())
         metadata = {}
         while pairs.left:
             key = pairs.string()
@@ -280,23 +274,23 @@ class _Scan:
     def _read_index(self) -> bool:
         """Use the summary if its checksum is right: channels, and chunks that were not seen."""
         content, size = self._content, self._log.size
-        foot = size - len(MAGIC) - _FOOTER_SIZE
+        foot = size - len(MAGIC) - FOOTER_SIZE
         if foot < len(MAGIC) or content[size - len(MAGIC) :] != MAGIC:
             return False
-        kind, length = _RECORD.unpack_from(content, foot)
-        if (kind, length) != (_FOOTER, 20):
+        kind, length = RECORD.unpack_from(content, foot)
+        if (kind, length) != (FOOTER, 20):
             return False
-        start, _, crc = struct.unpack_from('<QQI', content, foot + _RECORD.size)
+        start, _, crc = struct.unpack_from('<QQI', content, foot + RECORD.size)
         if not len(MAGIC) <= start <= foot or zlib.crc32(content[start : size - 12]) != crc:
             return False
         lost = []
-        for kind, first, last in _records(content[start:foot]):
+        for kind, first, last in records(content[start:foot]):
             record = content[start + first : start + last]
-            if kind == _SCHEMA:
+            if kind == SCHEMA:
                 self._take_schema(record)
-            elif kind == _CHANNEL:
+            elif kind == CHANNEL:
                 self._take_channel(record)
-            elif kind == _CHUNK_INDEX:
+            elif kind == CHUNK_INDEX:
                 offset, length = struct.unpack_from('<QQ', record, 16)
                 if offset not in self._seen:
                     lost.append((offset, offset + length))
@@ -308,94 +302,11 @@ class _Scan:
     def _rescue(self, at: int, after: int) -> None:
         """Read a chunk that the index names and the scan did not reach."""
         try:
-            self._take_chunk(at, at + _RECORD.size, after)
-        except _BadRecordError as error:
+            self._take_chunk(at, at + RECORD.size, after)
+        except BadRecordError as error:
             line = f'chunk at byte {at}: {error}'
             if line not in self._log.faults:
                 self._fault(line)
 
 
-_KINDS = {_HEADER: 'header', _CHUNK: 'chunk', _ATTACHMENT: 'attachment', _DATA_END: 'data end'}
-
-
-class _Fields:
-    """Reads the fields of a record within its bounds."""
-
-    def __init__(self, data: bytes) -> None:
-        self._data = data
-        self._at = 0
-
-    @property
-    def left(self) -> int:
-        return len(self._data) - self._at
-
-    def take(self, size: int) -> bytes:
-        if size > self.left:
-            raise _BadRecordError('its fields are longer than the record')
-        self._at += size
-        return self._data[self._at - size : self._at]
-
-    def uint16(self) -> int:
-        return int.from_bytes(self.take(2), 'little')
-
-    def block(self, width: int = 4) -> bytes:
-        return self.take(int.from_bytes(self.take(width), 'little'))
-
-    def string(self) -> str:
-        try:
-            return self.block().decode()
-        except UnicodeDecodeError:
-            raise _BadRecordError('a string is not UTF-8') from None
-
-
-def _attachment(record: bytes) -> tuple[str, bytes]:
-    fields = _Fields(record)
-    fields.take(16)
-    name = fields.string()
-    fields.string()
-    data = fields.block(8)
-    if zlib.crc32(record[: len(record) - fields.left]) != int.from_bytes(fields.take(4), 'little'):
-        raise _BadRecordError('its checksum is wrong')
-    return name, data
-
-
-def _chunk(content: bytes, begin: int, after: int) -> _Chunk:
-    fields = _Fields(content[begin : min(after, begin + 64)])
-    fields.take(16)
-    uncompressed_size = int.from_bytes(fields.take(8), 'little')
-    crc = int.from_bytes(fields.take(4), 'little')
-    compression = fields.block()
-    size = int.from_bytes(fields.take(8), 'little')
-    offset = begin + 16 + 8 + 4 + 4 + len(compression) + 8
-    if offset + size > after:
-        raise _BadRecordError('its data are longer than the record')
-    return _Chunk(offset, size, compression, uncompressed_size, crc)
-
-
-def _decompress(chunk: _Chunk, data: bytes) -> bytes:
-    """Return a chunk's content, its checksum verified."""
-    content = data
-    if chunk.compression == b'zstd':
-        try:
-            stated = zstandard.frame_content_size(data)
-            if stated != chunk.uncompressed_size or stated > _LARGEST_CHUNK:
-                raise _BadRecordError('its sizes do not agree')
-            content = zstandard.decompress(data)
-        except zstandard.ZstdError:
-            raise _BadRecordError('its data do not decompress') from None
-    elif chunk.compression:
-        raise _BadRecordError(f'compression {chunk.compression!r} is not known; allowed: zstd')
-    if zlib.crc32(content) != chunk.crc:
-        raise _BadRecordError('its checksum is wrong')
-    return content
-
-
-def _records(content: bytes) -> Iterator[tuple[int, int, int]]:
-    """Return (kind, begin, end) of the records in a chunk or a summary."""
-    at, end = 0, len(content)
-    unpack, size = _RECORD.unpack_from, _RECORD.size
-    while at + size <= end:
-        kind, length = unpack(content, at)
-        at += size
-        yield kind, at, at + length
-        at += length
+_KINDS = {HEADER: 'header', CHUNK: 'chunk', ATTACHMENT: 'attachment', DATA_END: 'data end'}

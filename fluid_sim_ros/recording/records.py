@@ -1,0 +1,129 @@
+"""
+The records of an MCAP file: their layout, and their fields read within bounds.
+
+The format is https://mcap.dev/spec (version 0).
+"""
+
+import struct
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import zstandard
+
+MAGIC = b'\x89MCAP0\r\n'
+HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = 1, 2, 3, 4, 5, 6
+CHUNK_INDEX, ATTACHMENT, DATA_END = 8, 9, 15
+#: Records that hold nothing we need: message index, attachment index, statistics, metadata,
+#: metadata index, summary offset.
+OTHERS = (7, 10, 11, 12, 13, 14)
+RECORD = struct.Struct('<BQ')
+MESSAGE_HEAD = struct.Struct('<HIQQ')
+FOOTER_SIZE = RECORD.size + 20
+#: A chunk that claims to be larger is damaged; ours are closed at 1 MiB [bytes].
+_LARGEST_CHUNK = 1 << 28
+
+
+class BadRecordError(Exception):
+    """A record does not hold what its kind must hold."""
+
+
+@dataclass
+class Chunk:
+    """Where a chunk's compressed data stands."""
+
+    offset: int
+    size: int
+    compression: bytes
+    uncompressed_size: int
+    crc: int
+
+
+class Fields:
+    """Reads the fields of a record within its bounds."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._at = 0
+
+    @property
+    def left(self) -> int:
+        """Bytes that were not read yet."""
+        return len(self._data) - self._at
+
+    def take(self, size: int) -> bytes:
+        """Return the next bytes, or raise BadRecordError where the record ends before."""
+        if size > self.left:
+            raise BadRecordError('its fields are longer than the record')
+        self._at += size
+        return self._data[self._at - size : self._at]
+
+    def uint16(self) -> int:
+        """Return an unsigned 16-bit integer."""
+        return int.from_bytes(self.take(2), 'little')
+
+    def block(self, width: int = 4) -> bytes:
+        """Return bytes that stand behind their length, a number of ``width`` bytes."""
+        return self.take(int.from_bytes(self.take(width), 'little'))
+
+    def string(self) -> str:
+        """Return a string."""
+        try:
+            return self.block().decode()
+        except UnicodeDecodeError:
+            raise BadRecordError('a string is not UTF-8') from None
+
+
+def read_attachment(record: bytes) -> tuple[str, bytes]:
+    """Return an attachment's name and content, its checksum verified."""
+    fields = Fields(record)
+    fields.take(16)
+    name = fields.string()
+    fields.string()
+    data = fields.block(8)
+    if zlib.crc32(record[: len(record) - fields.left]) != int.from_bytes(fields.take(4), 'little'):
+        raise BadRecordError('its checksum is wrong')
+    return name, data
+
+
+def read_chunk_head(content: bytes, begin: int, after: int) -> Chunk:
+    """Return where the data of the chunk record between two places stands."""
+    fields = Fields(content[begin : min(after, begin + 64)])
+    fields.take(16)
+    uncompressed_size = int.from_bytes(fields.take(8), 'little')
+    crc = int.from_bytes(fields.take(4), 'little')
+    compression = fields.block()
+    size = int.from_bytes(fields.take(8), 'little')
+    offset = begin + 16 + 8 + 4 + 4 + len(compression) + 8
+    if offset + size > after:
+        raise BadRecordError('its data are longer than the record')
+    return Chunk(offset, size, compression, uncompressed_size, crc)
+
+
+def decompress(chunk: Chunk, data: bytes) -> bytes:
+    """Return a chunk's content, its checksum verified."""
+    content = data
+    if chunk.compression == b'zstd':
+        try:
+            stated = zstandard.frame_content_size(data)
+            if stated != chunk.uncompressed_size or stated > _LARGEST_CHUNK:
+                raise BadRecordError('its sizes do not agree')
+            content = zstandard.decompress(data)
+        except zstandard.ZstdError:
+            raise BadRecordError('its data do not decompress') from None
+    elif chunk.compression:
+        raise BadRecordError(f'compression {chunk.compression!r} is not known; allowed: zstd')
+    if zlib.crc32(content) != chunk.crc:
+        raise BadRecordError('its checksum is wrong')
+    return content
+
+
+def records(content: bytes) -> Iterator[tuple[int, int, int]]:
+    """Return (kind, begin, end) of the records in a chunk or a summary."""
+    at, end = 0, len(content)
+    unpack, size = RECORD.unpack_from, RECORD.size
+    while at + size <= end:
+        kind, length = unpack(content, at)
+        at += size
+        yield kind, at, at + length
+        at += length
