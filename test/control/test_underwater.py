@@ -83,7 +83,7 @@ def test_integrators_stand_still_while_thrusters_are_at_their_limits() -> None:
     tired = UnderwaterController(weak)
     for i in range(50):
         tired.step(i * 0.02, (0, 0, -5), (1, 0, 0, 0), (0, 0, 0), (0, 0, 0), 9.0, 2.0)
-    assert tired._integral == [0, 0, 0] and tired._angular_integral == [0, 0, 0]
+    assert tired._integral.value == [0, 0, 0] and tired._angular_integral.value == [0, 0, 0]
 
 
 def test_a_repeated_state_gets_the_same_answer() -> None:
