@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluid_sim_ros import __version__, cli_logs
+from fluid_sim_ros import __version__, cli_logs, cli_vehicle
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -93,6 +93,7 @@ def _build_parser() -> argparse.ArgumentParser:
     scenes.add_argument('--json', metavar='PATH', help=json_help)
     scenes.set_defaults(function=_scenes)
 
+    cli_vehicle.add_parser(commands, _show, json_help)
     cli_logs.add_parsers(commands, _show, json_help)
 
     commands.add_parser(
