@@ -27,7 +27,7 @@ from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
-from fluid_sim_ros.ros.vehicle_plant import plant_of
+from fluid_sim_ros.vehicle_plant import plant_of
 
 RESULT = Path(__file__).parent / 'results' / 'controller_latency.json'
 ROUNDS, QUICK_ROUNDS, WARM_UP = 5000, 1000, 200

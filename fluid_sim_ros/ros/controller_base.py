@@ -30,7 +30,7 @@ from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.inputs import PolledGroup
 from fluid_sim_ros.ros.state_source import StateSource
 from fluid_sim_ros.ros.states import State
-from fluid_sim_ros.ros.vehicle_plant import plant_of
+from fluid_sim_ros.vehicle_plant import plant_of
 
 #: Longest wait before signals are looked at again [ns].
 _WAIT_NS = 50_000_000

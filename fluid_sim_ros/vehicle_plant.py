@@ -1,23 +1,24 @@
-"""What the example controllers know of their vehicle, read from the same scene as the node's."""
+"""What a controller knows of its vehicle, measured on the compiled scene."""
 
 import mujoco
 import numpy as np
 
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.thrust_matrix import thrust_matrix
 from fluid_sim_ros.vehicle import Vehicle
 
 
-def plant_of(scene: str, vehicle: str) -> tuple[Plant, Vehicle]:
+def plant_of(scene: str | Scene, vehicle: str) -> tuple[Plant, Vehicle]:
     """
     Return mass, inertia and thrusters of a vehicle in a scene, and the vehicle.
 
     Parameters
     ----------
     scene
-        Name or path, as for the node.
+        Name or path, as for the node, or a scene.
     vehicle
         Vehicle name; empty means the scene's only vehicle with thrusters.
 
@@ -29,7 +30,7 @@ def plant_of(scene: str, vehicle: str) -> tuple[Plant, Vehicle]:
 
     """
     simulation = Simulation(scene)
-    chosen = _choose(simulation, scene, vehicle)
+    chosen = choose_vehicle(simulation, vehicle)
     if chosen.dof_address < 0:
         raise ConfigError(f"vehicle '{chosen.name}': its base has no free joint")
     if not chosen.thrusters:
@@ -37,9 +38,17 @@ def plant_of(scene: str, vehicle: str) -> tuple[Plant, Vehicle]:
     return _measure(simulation, chosen), chosen
 
 
-def _choose(simulation: Simulation, scene: str, vehicle: str) -> Vehicle:
-    """Return the named vehicle, or the only one with thrusters when the name is empty."""
-    vehicles = simulation.vehicles
+def choose_vehicle(simulation: Simulation, vehicle: str) -> Vehicle:
+    """
+    Return the named vehicle, or the only one with thrusters when the name is empty.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such vehicle, or the choice is not unique.
+
+    """
+    scene, vehicles = simulation.scene.name, simulation.vehicles
     if vehicle:
         if vehicle not in vehicles:
             raise ConfigError(
