@@ -16,6 +16,7 @@ from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene_schema import Gait, Home, SceneFile, ScheduledEvent, VehicleFile
 from fluid_sim_ros.schema import parse, read_yaml
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
+from fluid_sim_ros.wave_schema import Waves
 
 INTEGRATORS = {
     name.removeprefix('mjINT_').lower(): getattr(mujoco.mjtIntegrator, name)
@@ -53,7 +54,7 @@ class Scene:
         Name in config/scenes, or the stem of the given file.
     model_path
         The MJCF file.
-    description, medium, duration, keyframe, home, schedule, gait
+    description, medium, duration, keyframe, home, waves, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
@@ -67,6 +68,7 @@ class Scene:
     duration: float = 10.0
     keyframe: str | None = None
     home: Home = field(default_factory=Home)
+    waves: Waves | None = None
     schedule: tuple[ScheduledEvent, ...] = ()
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
@@ -107,6 +109,7 @@ class Scene:
         timestep: float | None = None,
         integrator: str | None = None,
         fluid: str | None = None,
+        seed: int = 0,
     ) -> CompiledScene:
         """
         Compile the model and resolve every name.
@@ -119,6 +122,8 @@ class Scene:
             Replaces the model's integrator, one of ``INTEGRATORS`` (any case).
         fluid
             Replaces the model's fluid forces, one of ``FLUID_RUNGS``.
+        seed
+            Of the weather's random processes.
 
         Raises
         ------
@@ -136,6 +141,8 @@ class Scene:
             spec.option.integrator = _integrator(integrator)
         if fluid is not None:
             force_fluid(spec, fluid, self.model_path)
+        elif self.waves is not None:  # the forced rungs have no free surface
+            _raise_waves(spec, self.waves.keys(seed), self.name)
         model = compile_spec(spec, self.model_path)
         vehicles = self._vehicles(model)
         schedule = Schedule(self.schedule, model.opt.timestep)
@@ -198,6 +205,7 @@ def _from_yaml(path: Path) -> Scene:
         duration=content.duration,
         keyframe=content.keyframe,
         home=content.home,
+        waves=content.waves,
         schedule=tuple(content.schedule),
         gait=content.gait,
         vehicles=vehicles,
@@ -219,6 +227,16 @@ def _read_model(path: Path) -> mujoco.MjSpec:
         return mujoco.MjSpec.from_file(str(path))
     except ValueError as error:
         raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
+
+
+def _raise_waves(spec: mujoco.MjSpec, keys: dict[str, str], name: str) -> None:
+    media = [p for p in spec.plugins if p.plugin_name == 'fluid_sim.medium' and p.name]
+    if not media:
+        raise ConfigError(
+            f"{name}: key 'waves': the model has no free surface; "
+            'give it a fluid_sim.medium with surface'
+        )
+    media[0].config = {**media[0].config, **keys}
 
 
 def _integrator(name: str) -> mujoco.mjtIntegrator:

@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from fluid_sim_ros.schema import Name, NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.wave_schema import Waves
 
 
 class VehicleFile(Strict):
@@ -82,5 +83,6 @@ class SceneFile(Strict):
     duration: Positive = 10.0
     keyframe: str | None = None
     home: Home = Home()
+    waves: Waves | None = None
     schedule: list[ScheduledEvent] = []
     gait: dict[Name, Gait] = {}

@@ -69,7 +69,9 @@ class Simulation:
     ) -> None:
         self.scene = Scene.load(scene)
         self.seed = seed
-        compiled = self.scene.compile(timestep=timestep, integrator=integrator, fluid=fluid)
+        compiled = self.scene.compile(
+            timestep=timestep, integrator=integrator, fluid=fluid, seed=seed
+        )
         self._vehicles = compiled.vehicles
         self._schedule = compiled.schedule
         self._gaits = compiled.gaits

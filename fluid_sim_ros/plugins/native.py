@@ -46,7 +46,9 @@ class Native:
     addresses of three numbers or 0, ``get_medium`` the same. ``explicit_force`` and
     ``kinetic_energy`` take (model, data, scratch, out). ``thruster(model, data, actuator, out) ->
     int`` writes THRUSTER_VALUES and returns 1 for the thrust of a fluid_sim.thruster, 2 for its
-    reaction torque, 0 for any other actuator. See plugins/src/api*.cc for their meaning.
+    reaction torque, 0 for any other actuator. ``surface(model, data, points, n, heights) -> int``
+    writes the height [m] of the free surface over n points and returns 2 where it has waves. See
+    plugins/src/api*.cc for their meaning.
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
@@ -77,6 +79,9 @@ class Native:
         self.thruster: Callable[[int, int, int, int], int] = library.fsr_thruster
         library.fsr_thruster.argtypes = [pointer, pointer, integer, pointer]
         library.fsr_thruster.restype = integer
+        self.surface: Callable[[int, int, int, int, int], int] = library.fsr_surface
+        library.fsr_surface.argtypes = [pointer, pointer, pointer, integer, pointer]
+        library.fsr_surface.restype = integer
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p

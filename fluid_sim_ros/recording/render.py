@@ -15,6 +15,7 @@ from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.reader import Log
 from fluid_sim_ros.recording.tracks import Track, read_tracks
+from fluid_sim_ros.recording.water import add_waves
 from fluid_sim_ros.simulation import Simulation
 
 Array = NDArray[np.float64]
@@ -141,12 +142,15 @@ class _Stage:
         """Return the picture at a simulated time [s]."""
         for name, track in self._tracks.items():
             self._pose(name, track, time)
+        self._data.time = time
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
         self._renderer.update_scene(self._data, self._camera)
         for name, track in self._tracks.items():
             self._add_arrows(name, track, time)
+        center = self._data.xpos[self._followed]
+        add_waves(self._renderer.scene, self._model, self._data, center, self._extent)
         picture: Picture = self._renderer.render()
         return picture
 

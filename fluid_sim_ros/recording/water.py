@@ -1,0 +1,78 @@
+"""The waves of a model as a patch of triangles in a picture."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.plugins.native import native
+
+Array = NDArray[np.float64]
+
+#: Triangles per side of the patch / 2, and the size of a cell in extents of the vehicle.
+_CELLS, _CELL = 48, 0.5
+_COLOUR = np.array([0.15, 0.45, 0.6, 0.55], dtype=np.float32)
+#: From the cell's corner (two are its far one) to the ends of the two edges of each triangle.
+_CORNERS = (((0, 0), (1, 0), (0, 1)), ((1, 1), (0, 1), (1, 0)))
+
+
+def surface_heights(model: mujoco.MjModel, data: mujoco.MjData, points: Array) -> Array | None:
+    """
+    Return the heights of the waves over points [m], shape (n,), at the data's time.
+
+    None for a model whose surface has no waves. Points: world x y, shape (n, 2).
+    """
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    heights = np.empty(len(points))
+    kind = native().surface(
+        model._address, data._address, points.ctypes.data, len(points), heights.ctypes.data
+    )
+    return heights if kind == 2 else None
+
+
+def add_waves(
+    scene: mujoco.MjvScene,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    center: Array,
+    extent: float,
+) -> None:
+    """
+    Add the waves around a point to a scene; nothing for a model without waves.
+
+    Parameters
+    ----------
+    scene
+        To which the triangles are added.
+    model, data
+        Whose time it is.
+    center
+        Middle of the patch, world [m].
+    extent
+        Of the vehicle [m]; sets the size of the triangles.
+
+    """
+    cell = _CELL * extent
+    # on a grid that stays where it is, so that the surface does not shimmer as the vehicle moves
+    start = np.round(np.asarray(center)[:2] / cell) - _CELLS // 2
+    ticks = np.arange(_CELLS + 1)
+    grid = (start + np.stack(np.meshgrid(ticks, ticks, indexing='ij'), axis=-1)) * cell
+    heights = surface_heights(model, data, grid.reshape(-1, 2))
+    if heights is None:
+        return
+    nodes = np.concatenate([grid, heights.reshape(*ticks.shape, -1)[..., np.newaxis]], axis=-1)
+    for corners in _CORNERS:
+        at, right, left = (
+            nodes[i : _CELLS + i, j : _CELLS + j].reshape(-1, 3) for i, j in corners
+        )
+        edges = np.stack([right - at, left - at], axis=-1)
+        normal = np.cross(edges[..., 0], edges[..., 1])
+        # the renderer's triangle is (0, 0), (1, 0), (0, 1) of its frame: the edges are its axes
+        axes = np.concatenate([edges, normal[..., np.newaxis]], axis=-1).reshape(-1, 9)
+        for place, frame in zip(at, axes, strict=True):
+            if scene.ngeom >= scene.maxgeom:
+                return
+            mujoco.mjv_initGeom(
+                scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_TRIANGLE,
+                np.ones(3), place, frame, _COLOUR,
+            )  # fmt: skip
+            scene.ngeom += 1
