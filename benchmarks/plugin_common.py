@@ -1,70 +1,27 @@
 """What the plugin benchmarks share: models with fluid_sim plugins, native calls, results."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fluid_sim_ros.lab.mjcf import (
+    FIRST_ORDER,
+    body_plugin,
+    config,
+    ellipsoid,
+    free_body,
+    text,
+    world,
+)
 from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 
+__all__ = [
+    'FIRST_ORDER', 'Array', 'body_plugin', 'config', 'ellipsoid', 'explicit_force', 'free_body',
+    'kinetic_energy', 'load', 'refusal', 'set_medium', 'text', 'world',
+]  # fmt: skip
+
 Array = NDArray[np.float64]
-FIRST_ORDER = ('Euler', 'implicit', 'implicitfast', 'discrete')
-
-
-def text(values: ArrayLike) -> str:
-    """Return numbers with all their digits, as MJCF wants them."""
-    return ' '.join(f'{value:.17g}' for value in np.asarray(values, dtype=float).reshape(-1))
-
-
-def config(values: Mapping[str, Any]) -> str:
-    """Return the <config> elements of a plugin instance."""
-    lines = []
-    for key, value in values.items():
-        written = value if isinstance(value, str) else text(value)
-        lines.append(f'<config key="{key}" value="{written}"/>')
-    return ''.join(lines)
-
-
-def body_plugin(**values: Any) -> str:
-    """Return the element that puts fluid_sim.body on the body around it."""
-    return f'<plugin plugin="fluid_sim.body">{config(values)}</plugin>'
-
-
-def ellipsoid(size: ArrayLike, density: float, coef: ArrayLike = (0, 0, 0, 0, 0)) -> str:
-    """Return an ellipsoid geom that takes part in the fluid."""
-    return (
-        f'<geom type="ellipsoid" size="{text(size)}" density="{text(density)}" '
-        f'fluidshape="ellipsoid" fluidcoef="{text(coef)}" contype="0" conaffinity="0"/>'
-    )
-
-
-def world(
-    bodies: str,
-    *,
-    integrator: str = 'RK4',
-    timestep: float = 0.01,
-    gravity: ArrayLike = (0.0, 0.0, 0.0),
-    option: str = '',
-    flag: str = '',
-    medium: Mapping[str, Any] | None = None,
-    extra: str = '',
-) -> str:
-    """Return MJCF with both plugins declared; ``medium`` None leaves fluid_sim.medium out."""
-    instance = '' if medium is None else f'<instance name="fluid">{config(medium)}</instance>'
-    if medium is not None:
-        instance = f'<plugin plugin="fluid_sim.medium">{instance}</plugin>'
-    return f"""<mujoco><option timestep="{timestep:.17g}" integrator="{integrator}"
-gravity="{text(gravity)}" {option}><flag contact="disable" {flag}/></option>
-<extension><plugin plugin="fluid_sim.body"/>{instance}</extension>
-<worldbody>{bodies}</worldbody>{extra}</mujoco>"""
-
-
-def free_body(inside: str, *, name: str = 'hull', position: ArrayLike = (0, 0, 0)) -> str:
-    """Return a body with a free joint whose whole inertia matrix MuJoCo stores."""
-    return f'<body name="{name}" pos="{text(position)}" simple="false"><freejoint/>{inside}</body>'
 
 
 def load(xml: str) -> tuple[mujoco.MjModel, mujoco.MjData]:

@@ -4,7 +4,7 @@ Falling plates: where fluttering gives way to tumbling, with the plugin and with
 The plate of Andersen, Pesavento and Wang (2005), J. Fluid Mech. 541:91, moves in a vertical plane.
 Their dimensionless model (physics/falling_plate.py) puts the transition at I* = 1.2191. The
 plugin gets its added mass, drag (true area), lift and both rotational damping terms by the
-mapping of `plate`; stock MuJoCo has the same shape and weight with the default coefficients.
+mapping of lab/plates.py; stock MuJoCo has the same shape and weight with the default coefficients.
 
 The mapping is exact but for the drag between edge-on and broadside: A - B cos 2a in the paper,
 that is (A - B) + 2 B sin^2 a, and (A - B) + 2 B |sin a| by the area of the shadow. The paper's
@@ -20,94 +20,22 @@ import matplotlib as mpl
 import mujoco
 import numpy as np
 from common import RESULTS, arguments, write
-from plugin_common import Array, body_plugin, load, text, world
+from plugin_common import Array, load
 from scipy.integrate import solve_ivp
 
+from fluid_sim_ros.lab.plates import BETA, START, A, plate_mjcf, speed_scale, start_state
 from fluid_sim_ros.physics.falling_plate import PlateParams, falling_plate_rhs
 
-A, BETA, FLUID, G = 0.05, 0.02, 1000.0, 9.81  # half width [m], b/a [-], [kg/m^3], [m/s^2]
-SPAN = np.pi * A / 2  # of the plate; then the ellipsoid (a, a, b) has its area 2 a SPAN
 DURATION, STEP, KEPT = 200.0, 0.01, 5  # in units of a/U twice; every fifth step is kept
-START = (0.0, 0.0, 0.3, 0.01, -0.01, 0.01)  # x, y, angle, velocity and spin: the general case
 PUBLISHED, BOUNDS = 1.2191, (1.2, 1.3)  # transition [-]: in the paper; where the plugin's lies
 TUMBLES = 2.0  # net turns in the second half of a fall, from which on a plate tumbles
 
 
-def speed_scale(inertia: float, beta: float = BETA) -> float:
-    """Return U = sqrt((rho_s/rho_f - 1) g b) [m/s] for I* = rho_s b/(rho_f a)."""
-    return float(np.sqrt((inertia / beta - 1) * G * beta * A))
-
-
-def coefficients(inertia: float, beta: float) -> tuple[float, ...]:
-    """
-    Return blunt, slender, angular, Kutta and Magnus coefficient of the ellipsoid (a, a, b).
-
-    Its volume is 4/3 pi a^2 b where the plate has pi a b SPAN, its swept inertia 8 pi/15 a^5; the
-    two equal long axes keep the slender coefficient out of the angular drag.
-    """
-    p = PlateParams(inertia)
-    volume_ratio = np.pi * A * SPAN / (4 / 3 * np.pi * A * A)
-    return (
-        (p.a_drag + p.b_drag) / 2,  # 2 a SPAN rho C v^2 = rho a SPAN (A + B) v^2
-        (p.a_drag - p.b_drag) / 2,
-        p.mu_quadratic * 15 / 8 * SPAN / A,  # pi rho a^4 SPAN mu2 |w| w
-        p.c_translation,
-        2 * p.c_rotation / (np.pi * beta) * volume_ratio,  # 2/beta for the plate's volume
-    )
-
-
-def plate(
-    inertia: float, *, plugin: bool, beta: float = BETA
-) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """
-    Return the plate with joints x, z and a hinge about y (its span).
-
-    Per unit span the model has the units pi rho a^2 (mass), pi rho a^4 (inertia), a U (circulation
-    over pi) and so on: added mass 1 across the plate, none along it, added inertia 1/8.
-    """
-    scale = speed_scale(inertia, beta)
-    mass = np.pi * FLUID * inertia * A**2 * SPAN
-    heave, pitch = np.pi * FLUID * A**2 * SPAN, np.pi / 8 * FLUID * A**4 * SPAN
-    if plugin:
-        coef = f'fluidcoef="{text(coefficients(inertia, beta))}"'
-        gravity, fluid = G, body_plugin(
-            added_mass=[0, 0, heave, 0, pitch, 0],
-            volume=np.pi * A * (beta * A) * SPAN,
-            drag='ellipsoid',
-            drag_area='true',
-            rotational_damping=np.pi * A**3 * SPAN * PlateParams(inertia).mu_linear * scale,
-        )  # fmt: skip
-    else:
-        # stock has no buoyancy: the same net weight
-        coef, fluid, gravity = '', '', G * (1 - beta / inertia)
-    own = mass * A**2 / 4
-    body = (
-        '<body name="plate" simple="false"><joint type="slide" axis="1 0 0"/>'
-        '<joint type="slide" axis="0 0 1"/><joint axis="0 -1 0"/>'
-        f'<inertial pos="0 0 0" mass="{mass:.17g}" '
-        f'diaginertia="{own * 1.05:.17g} {own:.17g} {own * 1.05:.17g}"/>'
-        f'<geom type="ellipsoid" size="{A} {A} {beta * A}" fluidshape="ellipsoid" {coef} '
-        f'contype="0" conaffinity="0"/>{fluid}</body>'
-    )
-    return load(
-        world(
-            body, gravity=(0, 0, -gravity), timestep=STEP * A / scale,
-            medium={'density': FLUID} if plugin else None,
-            option='' if plugin else f'density="{FLUID}"',
-        )
-    )  # fmt: skip
-
-
 def fall(inertia: float, *, plugin: bool, beta: float = BETA) -> Array:
     """Return (x, y, angle) in units of a over time, shape (n, 3)."""
-    model, data = plate(inertia, plugin=plugin, beta=beta)
-    scale = speed_scale(inertia, beta)
-    x, y, angle, vx, vy, spin = START
-    cosine, sine = np.cos(angle), np.sin(angle)
-    data.qpos[:] = [x * A, y * A, angle]
-    data.qvel[:] = [
-        (vx * cosine - vy * sine) * scale, (vx * sine + vy * cosine) * scale, spin * scale / A
-    ]  # fmt: skip
+    timestep = STEP * A / speed_scale(inertia, beta)
+    model, data = load(plate_mjcf(inertia, plugin=plugin, beta=beta, timestep=timestep))
+    data.qpos[:], data.qvel[:] = start_state(inertia, beta)
     path = np.zeros((round(DURATION / STEP / KEPT), 3))
     for row in path:
         mujoco.mj_step(model, data, KEPT)

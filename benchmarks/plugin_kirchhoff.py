@@ -16,12 +16,13 @@ import mujoco
 import numpy as np
 from common import RESULTS, arguments, write
 from plugin_common import FIRST_ORDER, Array, body_plugin, ellipsoid, free_body, load, text, world
-from scipy.integrate import solve_ivp
 
+from fluid_sim_ros.lab import norms
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
 from fluid_sim_ros.physics.kirchhoff import (
     impulses,
     kinetic_energy,
+    kirchhoff_motion,
     kirchhoff_rhs,
     rigid_body_matrix,
     rotation_wb,
@@ -118,19 +119,12 @@ def simulate(
 def reference(case: Case, duration: float) -> Array:
     """Return Kirchhoff's solution in still fluid."""
     start = np.r_[np.zeros(3), 1, 0, 0, 0, case.nu]
-    solution = solve_ivp(
-        kirchhoff_rhs, (0, duration), start, method='DOP853', rtol=1e-12, atol=1e-13,
-        args=(case.matrix,),
-    )  # fmt: skip
-    return solution.y[:, -1]
+    return kirchhoff_motion(start, [0.0, duration], case.matrix)[-1]
 
 
 def attitude_error(state: Array, exact: Array) -> float:
-    """Return the angle between two attitudes [rad], 2 atan2(|q_v|, |q_w|) of q_ref^-1 q."""
-    quat, inverse, both = state[3:7], np.zeros(4), np.zeros(4)
-    mujoco.mju_negQuat(inverse, exact[3:7] / np.linalg.norm(exact[3:7]))
-    mujoco.mju_mulQuat(both, inverse, quat / np.linalg.norm(quat))
-    return float(2 * np.arctan2(np.linalg.norm(both[1:]), abs(both[0])))
+    """Return the angle between two attitudes [rad]."""
+    return float(norms.attitude_error(state[None], exact[None]))
 
 
 def drifts(case: Case, state: Array, duration: float) -> dict[str, float]:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluid_sim_ros import __version__, cli_logs, cli_vehicle
+from fluid_sim_ros import __version__, cli_lab, cli_logs, cli_vehicle
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def _build_parser() -> argparse.ArgumentParser:
     run.add_argument('--duration', type=float, metavar='S', help='simulated time [s]')
     run.add_argument('--timestep', type=float, metavar='S', help="replaces the model's [s]")
     run.add_argument('--integrator', metavar='NAME', help='Euler, RK4, implicit, implicitfast')
-    run.add_argument('--fluid', metavar='MODEL', help='force none, inertia or ellipsoid')
+    run.add_argument('--fluid', metavar='MODEL', help='none, inertia, ellipsoid, no_added_mass')
     run.add_argument('--seed', type=int, default=0, help='of everything random (default 0)')
     for medium in ('wind', 'current'):
         run.add_argument(
@@ -95,6 +95,7 @@ def _build_parser() -> argparse.ArgumentParser:
 
     cli_vehicle.add_parser(commands, _show, json_help)
     cli_logs.add_parsers(commands, _show, json_help)
+    cli_lab.add_parsers(commands, _show, json_help)
 
     commands.add_parser(
         'demo', add_help=False, help='quadrotor in a gust: simulator and controller over ROS 2'

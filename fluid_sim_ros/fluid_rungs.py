@@ -1,4 +1,4 @@
-"""The ladder of fluid models: a scene's own plugins, stock ellipsoids, inertia boxes, nothing."""
+"""The ladder of fluid models, from a scene's own plugins down to nothing."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.plugins.native import native
 
 #: Fluid rungs that ``Scene.compile(fluid=...)`` can force on a scene.
-FLUID_RUNGS = ('none', 'inertia', 'ellipsoid')
+FLUID_RUNGS = ('none', 'inertia', 'ellipsoid', 'no_added_mass')
 #: Passive plugins that stand on a body.
 _ON_BODIES = ('fluid_sim.body', 'fluid_sim.foil')
 
@@ -24,13 +24,18 @@ def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
 
 def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
     """
-    Put the model on one rung of the ladder: no fluid, inertia boxes, or stock ellipsoids.
+    Put the model on one rung of the ladder.
 
-    What plugins add (buoyancy, added mass, damping, a medium) is taken away with them; a body that
-    they kept afloat gets gravcomp instead, so that a scene stays what it is.
+    No fluid, inertia boxes, or stock ellipsoids: what plugins add (buoyancy, added mass, damping,
+    a medium) is taken away with them; a body that they kept afloat gets gravcomp instead, so that
+    a scene stays what it is. ``no_added_mass``: all that the scene has, but without the inertia of
+    the added mass.
     """
     if fluid not in FLUID_RUNGS:
         raise ConfigError(f"fluid '{fluid}' is not known; allowed: {listed(FLUID_RUNGS)}")
+    if fluid == 'no_added_mass':
+        _take_added_mass_away(spec, path)
+        return
     _take_plugins_away(spec, path)
     if fluid == 'none':
         spec.option.density = 0.0
@@ -49,6 +54,15 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
         for geom in spec.geoms:
             if geom.parent.name != 'world' and (geom.contype or geom.conaffinity):
                 geom.fluid_ellipsoid = 1.0
+
+
+def _take_added_mass_away(spec: mujoco.MjSpec, path: Path) -> None:
+    """Set every stated added mass to zero; refuse a model that states none."""
+    stated = [plugin for plugin in spec.plugins if 'added_mass' in plugin.config]
+    if not stated:
+        raise ConfigError(f"fluid 'no_added_mass': {path} states no added_mass to leave out")
+    for plugin in stated:
+        plugin.config = {**plugin.config, 'added_mass': '0 0 0 0 0 0'}
 
 
 def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:

@@ -54,6 +54,8 @@ class Scene:
         Name in config/scenes, or the stem of the given file.
     model_path
         The MJCF file.
+    mjcf
+        The model itself as text, in place of the file.
     description, medium, duration, keyframe, home, waves, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     vehicles
@@ -72,6 +74,7 @@ class Scene:
     schedule: tuple[ScheduledEvent, ...] = ()
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
+    mjcf: str = ''
 
     @classmethod
     def load(cls, scene: 'str | Path | Scene') -> 'Scene':
@@ -132,7 +135,7 @@ class Scene:
 
         """
         load_plugins()
-        spec = _read_model(self.model_path)
+        spec = _read_model(self.model_path, self.mjcf)
         if timestep is not None:
             if not (np.isfinite(timestep) and timestep > 0):
                 raise ConfigError(f'timestep {timestep} s: must be finite and above 0')
@@ -222,9 +225,9 @@ def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
     return parse(VehicleFile, read_yaml(path), path)
 
 
-def _read_model(path: Path) -> mujoco.MjSpec:
+def _read_model(path: Path, mjcf: str) -> mujoco.MjSpec:
     try:
-        return mujoco.MjSpec.from_file(str(path))
+        return mujoco.MjSpec.from_string(mjcf) if mjcf else mujoco.MjSpec.from_file(str(path))
     except ValueError as error:
         raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
 

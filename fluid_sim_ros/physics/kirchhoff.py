@@ -1,16 +1,17 @@
 """
 A rigid body in an ideal fluid: Kirchhoff's equations as an ordinary differential equation.
 
-Lamb (1932), ch. 6. The reference that simulations with added mass are measured against: integrate
-`kirchhoff_rhs` with DOP853 at 1e-12. State: position of the reference point O in the world [m],
-attitude quaternion body -> world (w, x, y, z), velocity of O [m/s] and angular velocity [rad/s] in
-body axes; shape (13,).
+Lamb (1932), ch. 6. The reference that simulations with added mass are measured against:
+`kirchhoff_motion` integrates it by DOP853 at 1e-12. State: position of the reference point O in
+the world [m], attitude quaternion body -> world (w, x, y, z), velocity of O [m/s] and angular
+velocity [rad/s] in body axes; shape (13,).
 """
 
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
 
 from fluid_sim_ros.physics.added_mass import added_mass_coriolis, momentum, shift_reference_point
 from fluid_sim_ros.physics.arrays import Array, positive, vectors
@@ -106,6 +107,40 @@ def kirchhoff_rhs(
         ]
     )
     return np.concatenate([rotation @ v, quat_dot, v_dot, nu_dot[3:]])
+
+
+def kirchhoff_motion(
+    start: ArrayLike,
+    times: ArrayLike,
+    total_matrix: ArrayLike,
+    flow_w: ArrayLike = (0.0, 0.0, 0.0),
+    wrench: BodyWrench | None = None,
+) -> Array:
+    """
+    Return the states of `kirchhoff_rhs` at given times, by DOP853 with tolerances of 1e-12.
+
+    Parameters
+    ----------
+    start
+        State at time 0, shape (13,).
+    times
+        Rising, from 0 on [s], shape (n,).
+    total_matrix, flow_w, wrench
+        As for `kirchhoff_rhs`.
+
+    Returns
+    -------
+    States, unit quaternions, shape (n, 13).
+
+    """
+    grid = np.asarray(times, dtype=np.float64)
+    solution = solve_ivp(
+        kirchhoff_rhs, (0.0, float(grid[-1])), np.asarray(start, dtype=np.float64),
+        method='DOP853', t_eval=grid, rtol=1e-12, atol=1e-13, args=(total_matrix, flow_w, wrench),
+    )  # fmt: skip
+    states: Array = solution.y.T
+    states[:, 3:7] /= np.linalg.norm(states[:, 3:7], axis=1, keepdims=True)
+    return states
 
 
 def kinetic_energy(

@@ -1,7 +1,5 @@
 """A log as one interactive HTML file that needs nothing beside it."""
 
-import html
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -9,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fluid_sim_ros.html_page import write_page
 from fluid_sim_ros.recording.tracks import Track, Tracks
 
 Array = NDArray[np.float64]
@@ -32,12 +31,7 @@ def write_report(tracks: Tracks, about: Sequence[tuple[str, str]], path: Path) -
             {'name': track.name, 'plots': _plots(track, tracks)} for track in tracks.vehicles
         ],
     }
-    # no text of a log may end the script element
-    data = json.dumps(content, allow_nan=False).replace('<', '\\u003c')
-    text = _TEMPLATE.read_text(encoding='utf-8')
-    text = text.replace('TITLE', html.escape(title)).replace('DATA', data)
-    path.write_text(text, encoding='utf-8')
-    return path
+    return write_page(_TEMPLATE, title, content, path)
 
 
 def _plots(track: Track, tracks: Tracks) -> list[dict[str, Any]]:

@@ -116,7 +116,7 @@ def test_wrong_input_is_one_line_and_exit_code_2(capsys, arguments, message):
     'arguments',
     [
         [],
-        ['chart'],
+        ['fly'],
         ['run'],
         ['run', 'rov', '--dur', '1'],
         ['run', 'rov', '--pacing', 'lockstep'],

@@ -1,0 +1,1 @@
+"""The speed-accuracy laboratory: charts, stability maps, and the advisor on settings."""

@@ -1,0 +1,11 @@
+"""Colours of the laboratory: distinguishable for colour-blind readers (Okabe and Ito 2008)."""
+
+COLORS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#000000', '#999999')
+INTEGRATOR_COLORS = dict(
+    zip(('RK4', 'Euler', 'implicitfast', 'implicit', 'discrete'), COLORS, strict=False)
+)
+
+
+def rung_colors(rungs: list[str]) -> dict[str, str]:
+    """Return a colour for each rung; the richest one has the first."""
+    return dict(zip(reversed(rungs), COLORS, strict=False))

@@ -1,0 +1,35 @@
+"""Which settings are worth their time: the Pareto front of wall time and error."""
+
+from collections.abc import Sequence
+from typing import Any
+
+#: Wall times closer than this are equal: the clock cannot tell them apart.
+SAME_TIME = 1.25
+
+
+def judged(point: dict[str, Any], by: str) -> float | None:
+    """Return the error that a point is judged by, None where the run failed."""
+    error = point['error']
+    return None if error is None else float(error[by])
+
+
+def mark_front(points: Sequence[dict[str, Any]], by: str) -> None:
+    """
+    Set ``pareto`` of every point.
+
+    A point is off the front when another one is at least as accurate and clearly faster (by
+    SAME_TIME), or more accurate and as fast within that factor.
+    """
+    for point in points:
+        error = judged(point, by)
+        point['pareto'] = error is not None and not any(
+            _beats(other, point, by) for other in points if other is not point
+        )
+
+
+def _beats(other: dict[str, Any], point: dict[str, Any], by: str) -> bool:
+    theirs, own = judged(other, by), judged(point, by)
+    if theirs is None or own is None or theirs > own:
+        return False
+    ratio = point['wall_us_per_s'] / other['wall_us_per_s']
+    return bool(ratio > SAME_TIME or (theirs < own and ratio > 1 / SAME_TIME))

@@ -1,0 +1,52 @@
+"""Result files of the laboratory: JSON that charts are drawn from, and CSV for other programs."""
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.lab.pareto import judged
+
+
+def save(result: dict[str, Any], path: Path) -> Path:
+    """Write a result as JSON; return the file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(result, indent=1, allow_nan=False) + '\n', encoding='utf-8')
+    return path
+
+
+def load(path: Path, key: str) -> dict[str, Any]:
+    """
+    Read a result that holds ``key``.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read or is something else.
+
+    """
+    try:
+        result = json.loads(path.read_text(encoding='utf-8'))
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ConfigError(f'{path}: cannot be read as a result ({error})') from None
+    if not isinstance(result, dict) or key not in result:
+        raise ConfigError(f"{path}: is no result of this kind: it has no '{key}'")
+    return result
+
+
+def write_csv(result: dict[str, Any], path: Path) -> Path:
+    """Write the points of a chart, one row each; return the file."""
+    fields = (
+        'rung', 'integrator', 'timestep_s', 'status', 'wall_us_per_s', 'wall_lowest_us_per_s',
+        'wall_highest_us_per_s', 'error', 'discretisation', 'pareto', 'failed_at_s', 'fault',
+    )  # fmt: skip
+    names = sorted({name for point in result['points'] for name in point['error'] or ()})
+    with path.open('w', newline='', encoding='utf-8') as file:
+        writer = csv.writer(file)
+        writer.writerow([*fields, *names])
+        for point in result['points']:
+            row = point | {'error': judged(point, result['judged_by'])}
+            every = point['error'] or {}
+            writer.writerow([*(row[f] for f in fields), *(every.get(name) for name in names)])
+    return path

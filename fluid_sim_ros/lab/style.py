@@ -1,0 +1,25 @@
+"""How the laboratory's pictures look."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+mpl.use('Agg')
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+STYLE: Any = {
+    'font.size': 9, 'axes.grid': True, 'grid.alpha': 0.25, 'axes.spines.top': False,
+    'axes.spines.right': False, 'figure.dpi': 100, 'legend.frameon': False,
+    'axes.titlesize': 10, 'axes.titleweight': 'bold', 'axes.titlelocation': 'left',
+}  # fmt: skip
+MARKERS = {'Euler': 'o', 'RK4': 's', 'implicit': '^', 'implicitfast': 'v', 'discrete': 'D'}
+
+
+def save_figure(figure: Figure, path: Path) -> Path:
+    """Write a picture and free it; return the file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path)
+    plt.close(figure)
+    return path
