@@ -6,8 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.cli_logs import Show
-from fluid_sim_ros.errors import MissingExtraError
+from fluid_sim_ros.cli_shared import Show, needing_extra
 
 if TYPE_CHECKING:
     from fluid_sim_ros.lab.measure import Report
@@ -22,7 +21,7 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
     def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
         parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=text)
         parser.add_argument('--json', metavar='PATH', help=json_help)
-        parser.set_defaults(function=lambda arguments: _needing_charts(function, arguments, show))
+        parser.set_defaults(function=lambda arguments: needing_extra(function, arguments, show))
         return parser
 
     chart = add('chart', 'chart speed against accuracy of a problem or scene', _chart)
@@ -39,20 +38,6 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
         '--from', dest='saved', nargs='+', type=Path, metavar='JSON',
         help='draw results of an earlier chart again, without running',
     )  # fmt: skip
-
-
-def _needing_charts(
-    function: Callable[[argparse.Namespace, Show], int], arguments: argparse.Namespace, show: Show
-) -> int:
-    try:
-        return function(arguments, show)
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith('fluid_sim_ros'):
-            raise
-        raise MissingExtraError(
-            f'{arguments.command} needs {error.name}, which is not installed; '
-            'fluid_sim doctor says what to type'
-        ) from None
 
 
 @contextmanager

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros import cli_replay
-from fluid_sim_ros.cli_replay import Show
-from fluid_sim_ros.errors import ConfigError, MissingExtraError
+from fluid_sim_ros.cli_shared import Show, needing_extra
+from fluid_sim_ros.errors import ConfigError
 
 DAMAGED = 1
 
@@ -20,7 +20,7 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
         parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=text)
         parser.add_argument('log', metavar='LOG', help='.mcap file, or the folder of one')
         parser.add_argument('--json', metavar='PATH', help=json_help)
-        parser.set_defaults(function=lambda arguments: _needing_mcap(function, arguments, show))
+        parser.set_defaults(function=lambda arguments: needing_extra(function, arguments, show))
         return parser
 
     add('info', 'what is in a log, and whether it is sound', _info)
@@ -46,20 +46,6 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
     cli_replay.add_options(
         add('replay', 'publish a log on ROS topics, or fly it again', cli_replay.replay)
     )
-
-
-def _needing_mcap(
-    function: Callable[[argparse.Namespace, Show], int], arguments: argparse.Namespace, show: Show
-) -> int:
-    try:
-        return function(arguments, show)
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith('fluid_sim_ros'):
-            raise
-        raise MissingExtraError(
-            f'{arguments.command} needs {error.name}, which is not installed; '
-            'fluid_sim doctor says what to type'
-        ) from None
 
 
 def _info(arguments: argparse.Namespace, show: Show) -> int:

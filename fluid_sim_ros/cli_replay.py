@@ -2,18 +2,17 @@
 
 import argparse
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from fluid_sim_ros.cli_shared import Show
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
     from fluid_sim_ros.recording.reader import Log
 
-#: Shows a table, or writes a result as JSON: (path or None, table, result).
-Show = Callable[[str | None, Any, object], None]
 
 #: Exit code where the log is damaged or a state differs.
 DIFFERENT = 1

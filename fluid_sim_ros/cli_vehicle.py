@@ -1,12 +1,10 @@
 """The subcommand of ``fluid_sim`` that makes a new vehicle."""
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-#: Shows a table, or writes a result as JSON: (path or None, table, result).
-Show = Callable[[str | None, Any, object], None]
+from fluid_sim_ros.cli_shared import Show
 
 
 def add_parser(commands: Any, show: Show, json_help: str) -> None:
