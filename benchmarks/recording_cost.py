@@ -3,9 +3,10 @@ What recording costs the node: free pacing, 100 Hz topics, computed and publishe
 
 The node publishes the same topics with and without a recorder, in turns, in one run of this
 script; the cost is the share of the real-time factor (wall) and of the node's own processor time
-that recording adds. Targets: 10 % with RK4 and 15 % with implicitfast for odometry, total wrench,
-clock and commands. Also: size per simulated minute beside a writer that does not compress, and the
-memory of simulation and writer along a long flight.
+that recording adds. At each tick the node also gets a thrust command, as the bytes that DDS would
+hand over, and applies it; commands are always recorded. Targets: 10 % with RK4 and 15 % with
+implicitfast for odometry, total wrench, clock and commands. Also: size per simulated minute beside
+a writer that does not compress, and the memory of simulation and writer along a long flight.
 """
 
 import json
@@ -30,24 +31,35 @@ from fluid_sim_ros.runner import NoSource, Runner
 DOMAIN = '101'
 SCENE = 'rov'
 SETS = {
-    'odom, wrench/total, clock': ['*/odom', '*/wrench/total', '/clock'],
-    'every state topic': ['*'],
+    'odom, wrench/total, clock, commands': ['*/odom', '*/wrench/total', '/clock'],
+    'every state topic, commands': ['*'],
 }
 
-# The node with its loop timed, every chosen topic published as if somebody subscribed.
+# The node with its loop timed, every chosen topic published as if somebody subscribed, and a
+# thrust command at every tick.
 NODE = textwrap.dedent("""
     import sys, time
     from fnmatch import fnmatchcase
+    from rclpy.serialization import serialize_message
+    from std_msgs.msg import Float64MultiArray
     from fluid_sim_ros import runner
-    from fluid_sim_ros.ros import node, outputs
+    from fluid_sim_ros.ros import inputs, node, outputs
     patterns = sys.argv.pop(1).split()
     refresh = outputs.Outputs.refresh
     def published(self):
         refresh(self)
         for topic in self.topics:
-            topic.subscribed = any(fnmatchcase(topic.name, p) for p in patterns)
+            chosen = any(fnmatchcase(topic.name, p) for p in patterns)
+            topic.subscribed = chosen and topic.publisher is not None
         self._active = [t for t in self.topics if t.subscribed]
     outputs.Outputs.refresh = published
+    poll, command = inputs.Inputs.poll, serialize_message(Float64MultiArray(data=[1.0] * 8))
+    def commanded(self, simulation):
+        poll(self, simulation)
+        for entry in self.inputs:
+            if entry.topic.endswith('/cmd/thrust'):
+                self._offer(simulation, entry, command)
+    inputs.Inputs.poll = commanded
     plain = runner.Runner.run
     def timed(self, until=runner.NEVER):
         start, used = time.perf_counter(), time.process_time()
