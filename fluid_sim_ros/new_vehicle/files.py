@@ -1,6 +1,7 @@
 """Writes the model, vehicle file and scene of a new vehicle, and tries them."""
 
 import re
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -73,8 +74,10 @@ def design_vehicle(
         If a number is impossible, the list is malformed, or hover is out of reach.
 
     """
-    if not re.match(NAME_PATTERN, name):
-        raise ConfigError(f"name '{name}': must be letters, digits and _, a letter first")
+    if not re.match(NAME_PATTERN, name) or name == 'world':
+        raise ConfigError(
+            f"name '{name}': must be letters, digits and _, a letter first, and not world"
+        )
     if max_thrust is not None and not (np.isfinite(max_thrust) and max_thrust > 0):
         raise ConfigError(f'--max-thrust {max_thrust:g}: must be above 0 [N]')
     box, weight = np.array(size, dtype=float), mass * GRAVITY
@@ -86,7 +89,7 @@ def design_vehicle(
 
 def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> NewVehicle:
     """
-    Write the files of a design into a folder, load them and run them for ``TRIAL`` seconds.
+    Load the files of a design, run them for ``TRIAL`` seconds, and write them into a folder.
 
     Raises
     ------
@@ -106,17 +109,25 @@ def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> N
         ),
         f'{design.name}.xml': mjcf_of(design),
     }  # fmt: skip
-    paths = tuple(folder / name for name in texts)
-    for path in paths:
-        if path.exists() and not overwrite:
-            raise ConfigError(f'{path}: exists; give another --out, or --force to replace it')
+    for name in texts:
+        if (folder / name).exists() and not overwrite:
+            raise ConfigError(
+                f'{folder / name}: exists; give another --out, or --force to replace it'
+            )
+    with tempfile.TemporaryDirectory() as trial:  # what does not load is not left behind
+        drift = _drift(_write(texts, Path(trial))[0])
+    paths = _write(texts, folder)
+    return NewVehicle(design, paths[0], paths, drift)
+
+
+def _write(texts: dict[str, str], folder: Path) -> tuple[Path, ...]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for path, text in zip(paths, texts.values(), strict=True):
-            path.write_text(text, encoding='utf-8')
+        for name, text in texts.items():
+            (folder / name).write_text(text, encoding='utf-8')
     except OSError as error:
         raise ConfigError(f'{folder}: cannot be written ({error.strerror})') from None
-    return NewVehicle(design, paths[0], paths, _drift(paths[0]))
+    return tuple(folder / name for name in texts)
 
 
 def _drift(scene: Path) -> float:

@@ -149,6 +149,11 @@ def _check(places: list[ThrusterPlace], path: Path) -> None:
     for name in names:
         if names.count(name) > 1:
             raise ConfigError(f"{path}: key 'thrusters': the name '{name}' stands twice")
+        if name == 'imu' or name.endswith('_torque'):
+            raise ConfigError(
+                f"{path}: key 'thrusters': the name '{name}' is taken; allowed: any but imu and "
+                '..._torque'
+            )
     for i, place in enumerate(places):
         if not any(place.direction):
             raise ConfigError(

@@ -10,9 +10,10 @@ import pytest
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import trapezoid
 
 from fluid_sim_ros import Scene, Simulation, cli
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, FluidSimError
 from fluid_sim_ros.new_vehicle.design import hover_thrusts
 from fluid_sim_ros.new_vehicle.files import design_vehicle, write_vehicle
 from fluid_sim_ros.new_vehicle.layout import PRESETS
@@ -147,6 +148,7 @@ def test_limits_are_kept_where_the_least_norm_would_not(tmp_path):
         ({'thrusters': 'tri'}, "'tri' is no preset; allowed: quad, hexa"),
         ({'thrusters': 'none.yaml'}, 'none.yaml: no such file'),
         ({'name': '2x'}, 'a letter first'),
+        ({'name': 'world'}, 'not world'),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused_with_one_line(change, words):
@@ -180,12 +182,33 @@ def test_a_malformed_list_names_file_and_key(tmp_path, entry, words):
 def test_other_faults_of_a_list(tmp_path):
     twice = list_file(tmp_path, rotor('a', 0.1, 0), rotor('a', -0.1, 0))
     assert "the name 'a' stands twice" in refusal(**{**QUAD, 'thrusters': twice})
+    taken = list_file(tmp_path, rotor('imu', 0.1, 0))
+    assert "the name 'imu' is taken" in refusal(**{**QUAD, 'thrusters': taken})
     nothing = list_file(tmp_path)
     assert 'thrusters' in refusal(**{**QUAD, 'thrusters': nothing})
     lopsided = list_file(tmp_path, rotor('a', 0.1, 0, max_thrust=30))
     assert 'hover is impossible with this layout' in refusal(**{**QUAD, 'thrusters': lopsided})
     with pytest.raises(ConfigError, match='goes with a preset'):
         design_vehicle(**{**QUAD, 'thrusters': lopsided, 'max_thrust': 3.0})
+
+
+def test_damping_of_the_box_is_that_of_its_strips():
+    """rho/2 C_d |w x r| (w x r) r summed over strips of the faces that a turn about z moves."""
+    design = design_vehicle(**ROV)
+    length, width, height = design.size
+    turn = 0.0
+    for side in (length, width):
+        strips = np.linspace(-side / 2, side / 2, 2001)
+        turn += 0.5 * 1000 * height * trapezoid(np.abs(strips) ** 3, strips)
+    assert design.quadratic_damping[5] == pytest.approx(turn, rel=1e-5)
+    assert design.quadratic_damping[0] == pytest.approx(500 * width * height)
+
+
+def test_what_does_not_load_leaves_nothing_behind(tmp_path):
+    flea = design_vehicle(**{**QUAD, 'mass': 1e-9, 'size': (1e-4, 1e-4, 1e-4)})  # kg, m
+    with pytest.raises(FluidSimError):
+        write_vehicle(flea, tmp_path / 'flea')
+    assert not (tmp_path / 'flea').exists()
 
 
 def test_hover_of_nothing_to_lift():

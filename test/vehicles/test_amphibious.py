@@ -4,9 +4,12 @@ import amphibious as bench
 import mujoco
 import numpy as np
 import pytest
+from closed_loop import Loop
 
-from fluid_sim_ros import Simulation
+from fluid_sim_ros import Scene, Simulation
+from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.ros.vehicle_plant import plant_of
 
 SHARE = 0.005  # of the value, as for the other vehicles
 
@@ -95,3 +98,19 @@ def test_the_scene_flies_dives_floats_and_flies_again():
     assert at(18.9) == pytest.approx(bench.floating_height()[1], abs=0.02)
     assert at(24.0) > 2.5
     assert abs(at(25.9) - at(24.9)) < 0.05  # hovers
+
+
+def test_the_quadrotor_controller_flies_it_by_its_rotors(tmp_path):
+    """A scene that names the rotors alone; the screws keep the keyframe's zero."""
+    scene = tmp_path / 'flight.yaml'
+    scene.write_text(
+        f'model: {Scene.load(bench.NAME).model_path}\nmedium: air\nkeyframe: hover\n'
+        'vehicles: {amphibious: {body: amphibious, thrusters: [m1, m2, m3, m4]}}\n'
+    )
+    plant, _ = plant_of(str(scene), '')
+    controller = MultirotorController(plant)
+    loop = Loop(str(scene), 100.0, 'wind')
+    for i in range(1500):
+        thrusts = controller.step(*loop.state(), (0.0, 0.0, 1.5), 0.0)
+        loop.advance(thrusts, (4.0, 0.0, 0.0) if i >= 200 else (0.0, 0.0, 0.0))
+    assert np.linalg.norm(np.subtract(loop.state()[1], (0, 0, 1.5))) < 0.1
