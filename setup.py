@@ -181,6 +181,7 @@ setup(
             'fluid_sim_node = fluid_sim_ros.ros.node:main',
             'quad_controller = fluid_sim_ros.ros.quad_controller:main',
             'rov_controller = fluid_sim_ros.ros.rov_controller:main',
+            'auv_controller = fluid_sim_ros.ros.auv_controller:main',
         ],
     },
     zip_safe=False,

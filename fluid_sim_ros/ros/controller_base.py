@@ -109,6 +109,9 @@ class ControllerNode(Node, ABC):
 
     """
 
+    #: Heading error at which a waypoint counts as reached [rad].
+    turn = 0.2
+
     def __init__(
         self,
         name: str,
@@ -127,6 +130,7 @@ class ControllerNode(Node, ABC):
         self.plan = WaypointPlan(
             from_flat(self.get_parameter('waypoints').value),
             radius=parameters.number(self, 'waypoint_radius'),
+            turn=self.turn,
         )
         self.read_live()
         self._create_topics(medium)

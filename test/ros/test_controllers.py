@@ -89,7 +89,7 @@ def test_each_state_gets_the_answer_of_the_law_with_its_own_stamp():
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize('kind', ['quad', 'rov'])
+@pytest.mark.parametrize('kind', ['quad', 'rov', 'auv'])
 def test_ends_cleanly_on_a_signal_before_any_state(kind, number):
     with controller(kind) as process:
         wait_until(lambda: 'waiting for' in process.output, 'the start')
@@ -162,6 +162,8 @@ def test_a_waypoint_on_the_topic_is_flown_to_and_a_bad_one_rejected():
         ('quad', {'gains.postion': 1.0}, "parameter 'gains.postion' is not known"),
         ('rov', {'depth': 'deep'}, "parameter 'depth': 'deep' is not a number"),
         ('rov', {'scene': 'quadrotor'}, 'rank 4; this controller needs 6'),
+        ('auv', {'scene': 'rov'}, 'this controller needs: rudder, planes'),
+        ('auv', {'gains.max_pitch': 2.0}, "gain 'max_pitch': 2.0; must be below pi/2"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(kind, parameters, message):
@@ -268,3 +270,16 @@ def test_lockstep_rov_dives_and_turns():
         with pilot, node(scene='rov', pacing='lockstep', enable_wind=False):
             there = reach(states, 12.0)
     assert there[2:] == pytest.approx([-6.0, 1.0], abs=0.01)
+
+
+def test_lockstep_auv_dives_and_turns_by_thrust_and_fins():
+    with Peer() as peer:
+        states = peer.collect(Odometry, 'remus100/odom', depth=5000)
+        pilot = controller('auv', depth=6.0, heading=-0.5)
+        with pilot, node(scene='remus100', pacing='lockstep', duration=22.0) as simulator:
+            assert simulator.wait() == 0
+            pilot.signal(signal.SIGTERM)
+            assert pilot.wait() == 0
+        assert error_lines(simulator.output + pilot.output) == []
+    z, yaw = numbers(states[-1])[2:]  # still settling
+    assert z == pytest.approx(-6.0, abs=0.3) and yaw == pytest.approx(-0.5, abs=0.03)
