@@ -21,6 +21,7 @@ from PIL import Image
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control.gait import JointWave, travelling_wave, wing_beat
+from fluid_sim_ros.recording.water import add_waves
 
 OUT = Path(__file__).parents[1] / 'doc' / 'img'
 WIDTH, HEIGHT = 640, 480
@@ -73,6 +74,7 @@ SHOTS = {
     'crazyflie': Shot(0.0),
     'amphibious': Shot(0.0),
     'aerosonde': Shot(0.0),
+    'wave_buoy': Shot(13.0),
     'remus100': Shot(0.0),
 }
 
@@ -93,6 +95,7 @@ def still(name: str) -> Image.Image:
         if shot.strobe:
             for position, rotation in places:
                 add_copy(renderer.scene, model, shot.strobe[0], position, rotation)
+        add_waves(renderer.scene, model, data, data.xpos[1], 1.0)
         pixels = renderer.render()
     picture = Image.fromarray(np.asarray(pixels)).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
     return picture.quantize(COLORS, dither=Image.Dither.FLOYDSTEINBERG)
