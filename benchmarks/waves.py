@@ -260,7 +260,7 @@ def draw_spectrum(axis: Any) -> None:
     block = 4
     smooth = periodogram[1 : 1 + len(periodogram) // block * block].reshape(-1, block).mean(axis=1)
     at = step * (1 + block * np.arange(len(smooth)) + (block - 1) / 2)
-    axis.plot(at, smooth, '.', color='tab:orange', ms=4, label='estimated from the surface, 40 seeds')
+    axis.plot(at, smooth, '.', color='tab:orange', ms=4, label='of the surface, 40 seeds')
     omega = np.linspace(0.3, 2.6, 400)
     axis.plot(omega, jonswap_spectrum(omega, HEIGHT, PERIOD), 'k', lw=1, label='JONSWAP, γ = 3.3')
     axis.set(xlabel='ω [rad/s]', ylabel='S(ω) [m² s/rad]', xlim=(0.3, 2.6))
