@@ -36,7 +36,7 @@ class Pacing:
     def begin(self, simulation: Simulation) -> None:
         """Start (again) from the simulation's present time."""
 
-    def longest_advance(self) -> int:
+    def steps_left(self, simulation: Simulation) -> int:
         """Return the most steps that may be taken before the next look at the source."""
         return NEVER
 
@@ -81,9 +81,9 @@ class RealTime(Pacing):
         self._wall = time.perf_counter()
         self._simulated = simulation.time
 
-    def longest_advance(self) -> int:
-        """Return the tick."""
-        return self.tick
+    def steps_left(self, simulation: Simulation) -> int:
+        """Return the steps to the next look at the clock."""
+        return self.tick - simulation.tick % self.tick
 
     def is_due(self, simulation: Simulation) -> bool:
         """Sleep until the boundary's wall time, a short while at most."""
@@ -127,9 +127,9 @@ class Lockstep(Pacing):
         """Forget what was waited for."""
         self._waiting_for = -1
 
-    def longest_advance(self) -> int:
-        """Return the period."""
-        return self.period
+    def steps_left(self, simulation: Simulation) -> int:
+        """Return the steps to the next answer."""
+        return self.period - simulation.step_count % self.period
 
     def meet(self, simulation: Simulation, source: Source) -> bool:
         """Wait for the answer at every period's boundary."""

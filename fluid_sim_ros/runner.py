@@ -11,7 +11,7 @@ from fluid_sim_ros.simulation import Simulation
 
 
 class Sink(Protocol):
-    """Where states go: written every ``period`` [steps], at step boundaries, step 0 included."""
+    """Where states go: written every ``period`` [ticks], at step boundaries, tick 0 included."""
 
     period: int
 
@@ -21,7 +21,7 @@ class Sink(Protocol):
 
 class Runner:
     """
-    Source -> simulation -> sinks, on one event schedule in whole steps.
+    Source -> simulation -> sinks, on one event schedule in ticks (``Simulation.tick``).
 
     At each boundary: requests of other threads, the boundary's wall time (real-time pacing), the
     sinks that are due, commands in, then steps up to the next boundary. Only the thread in
@@ -68,7 +68,7 @@ class Runner:
 
     def run(self, until: int = NEVER) -> None:
         """
-        Run until step ``until``, ``stop``, or an error.
+        Run until tick ``until``, ``stop``, or an error.
 
         Raises
         ------
@@ -83,11 +83,11 @@ class Runner:
             self.housekeeping()
             if self.stopped:
                 return
-            step = simulation.step_count
             if not self.paused and not self.pacing.is_due(simulation):
                 continue
-            self._write(step)
-            if step >= until:
+            tick = simulation.tick
+            self._write(tick)
+            if tick >= until:
                 return
             if self.paused:
                 requests.idle()
@@ -96,33 +96,31 @@ class Runner:
             pacing = self.pacing  # a request may have changed it
             if not pacing.meet(simulation, self.source):
                 continue
-            simulation.step(self._advance(step, min(until - step, pacing.longest_advance())))
+            simulation.step(self._advance(until - tick))
 
     def advance_paused(self, steps: int) -> None:
         """Step while paused (a request of another thread), writing what falls due."""
         simulation = self.simulation
         end = simulation.step_count + steps
         while simulation.step_count < end:
-            step = simulation.step_count
             self.source.poll(simulation)
-            simulation.step(self._advance(step, end - step))
-            self._write(simulation.step_count)
+            simulation.step(self._advance(end - simulation.step_count))
+            self._write(simulation.tick)
 
-    def _advance(self, step: int, most: int) -> int:
+    def _advance(self, most: int) -> int:
         """Return the number of steps to the next boundary of any sink or of the pacing."""
+        # a step is never longer than a tick, so no tick at which a sink is due is jumped over
+        tick = self.simulation.tick
         for sink in self.sinks:
-            most = min(most, sink.period - step % sink.period)
-        pace = self.pacing.longest_advance()
-        if pace < NEVER:
-            most = min(most, pace - step % pace)
-        return most
+            most = min(most, sink.period - tick % sink.period)
+        return min(most, self.pacing.steps_left(self.simulation))
 
-    def _write(self, step: int) -> None:
-        if step == self._written:
+    def _write(self, tick: int) -> None:
+        if tick == self._written:
             return
-        self._written = step
+        self._written = tick
         for sink in self.sinks:
-            if step % sink.period == 0:
+            if tick % sink.period == 0:
                 sink.write(self.simulation)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 from types import MappingProxyType
 
@@ -12,11 +13,12 @@ from numpy.typing import NDArray
 from fluid_sim_ros.commands import CommandedWrench, finite, write_controls
 from fluid_sim_ros.engine import EnergyBalance, Engine
 from fluid_sim_ros.environment import Event, exact
-from fluid_sim_ros.errors import CommandError, listed
+from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene_schema import ScheduledEvent
 from fluid_sim_ros.snapshot import ForceTorque, Snapshot, VehicleState
+from fluid_sim_ros.step_clock import Pace, StepClock
 from fluid_sim_ros.streams import SavedStreams, Streams
 from fluid_sim_ros.vehicle import Vehicle
 
@@ -33,6 +35,7 @@ class SavedState:
     wrenches: dict[str, CommandedWrench]
     added_events: tuple[Event, ...]
     gaits: tuple[str, ...] | None = None  # running ones; None: all of the scene
+    pace: Pace | None = None  # None: the scene's timestep all along
 
 
 class Simulation:
@@ -82,8 +85,8 @@ class Simulation:
         self._model, self._data = self._engine.model, self._engine.data
         self.observe = self._engine.observe
 
-        period_ns = exact(self._model.opt.timestep) * 1_000_000_000
-        self._ns_numerator, self._ns_denominator = period_ns.numerator, period_ns.denominator
+        self._timestep = float(self._model.opt.timestep)
+        self._clock = StepClock(self._timestep)
         self._names = tuple(self._vehicles)
         self._index = {name: i for i, name in enumerate(self._names)}
         self.reset()
@@ -117,8 +120,8 @@ class Simulation:
 
     @property
     def timestep(self) -> float:
-        """Timestep [s]."""
-        return float(self._model.opt.timestep)
+        """Timestep of the scene [s]; rates count in it, also after ``set_timestep``."""
+        return self._timestep
 
     @property
     def step_count(self) -> int:
@@ -126,15 +129,19 @@ class Simulation:
         return self._step
 
     @property
+    def tick(self) -> int:
+        """Whole timesteps of the scene since the last reset: the step count, unless retimed."""
+        return self._clock.tick(self._step)
+
+    @property
     def time(self) -> float:
-        """Simulated time [s]: step count times timestep, free of summation error."""
-        return self._step * self._ns_numerator / self._ns_denominator * 1e-9
+        """Simulated time [s]: steps times timestep, free of summation error."""
+        return self._clock.time(self._step)
 
     @property
     def time_ns(self) -> int:
         """Simulated time in whole nanoseconds, rounded once from the exact product [ns]."""
-        half = self._ns_denominator // 2
-        return (self._step * self._ns_numerator + half) // self._ns_denominator
+        return self._clock.time_ns(self._step)
 
     # ---- stepping --------------------------------------------------------------------------
 
@@ -150,6 +157,9 @@ class Simulation:
 
         """
         end = self._step + n
+        if self._clock.retimed:
+            self._step_retimed(end)
+            return
         if end > min(self._schedule.next_step, self._gaits.next_step) or self._wrenches:
             self._step_with_events(end)
             return
@@ -160,20 +170,54 @@ class Simulation:
 
     def _step_with_events(self, end: int) -> None:
         while self._step < end:
-            for change in self._schedule.take_due(self._step):
-                self._apply(change)
-            self._gaits.write_due(self._step, self._data.ctrl)
+            self._begin_step(self._step)
             stop = min(end, self._schedule.next_step, self._gaits.next_step)
             if self._wrenches:
                 # the axes of a commanded wrench turn with the body: hold them over one step only
                 stop = self._step + 1
-                for name, wrench in self._wrenches.items():
-                    wrench.write(self._vehicles[name], self._data)
             n = stop - self._step
             done = self._engine_step(n)
             self._step += done
             if done != n:
                 raise self._engine.divergence()
+
+    def _step_retimed(self, end: int) -> None:
+        while self._step < end:
+            self._begin_step(self.tick)
+            if self._engine_step(1) != 1:
+                raise self._engine.divergence()
+            self._step += 1
+
+    def _begin_step(self, tick: int) -> None:
+        """Apply what takes effect with the step from here."""
+        for change in self._schedule.take_due(tick):
+            self._apply(change)
+        self._gaits.write_due(tick, self._data.ctrl)
+        for name, wrench in self._wrenches.items():
+            wrench.write(self._vehicles[name], self._data)
+
+    def set_timestep(self, timestep: Fraction) -> None:
+        """
+        Step on with another timestep [s], for a loop that another clock drives; until ``reset``.
+
+        Rates and the scene's events keep to the timestep of the scene: they take effect at the
+        first boundary at or after their time.
+
+        Raises
+        ------
+        ConfigError
+            If it is not above 0, is longer than the scene's, or a gait is running.
+
+        """
+        if not 0 < timestep <= exact(self._timestep):
+            raise ConfigError(
+                f'timestep {float(timestep):g} s: must be above 0, and not longer than the '
+                f"scene's ({self._timestep:g} s)"
+            )
+        if self._gaits.running:
+            raise ConfigError("the scene's gait keeps the scene's timestep")
+        self._clock.retime(self._step, timestep)
+        self._model.opt.timestep = self._clock.timestep
 
     def reset(self, keyframe: str | None = None) -> None:
         """
@@ -191,6 +235,8 @@ class Simulation:
             if identity < 0:
                 names = listed(self._model.key(i).name for i in range(self._model.nkey))
                 raise CommandError(f"keyframe '{keyframe}' is not in the model; it has: {names}")
+        self._clock.restart()
+        self._model.opt.timestep = self._timestep
         self._engine.reset(identity)
         self._streams.reset()
         self._schedule.rewind(0)
@@ -293,8 +339,7 @@ class Simulation:
             self._streams.check('wind')
         if change.current is not None:
             self._streams.check('current')
-        step = -(-time_ns * self._ns_denominator // self._ns_numerator)
-        self._schedule.add(Event(max(step, self._step), change))
+        self._schedule.add(Event(max(self._clock.tick_at(time_ns), self.tick), change))
 
     def enable_wind(self, enabled: bool) -> None:
         """Switch wind and current on or off; the commanded velocities are kept."""
@@ -390,6 +435,7 @@ class Simulation:
             wrenches=dict(self._wrenches),
             added_events=self._schedule.added(),
             gaits=self._gaits.running,
+            pace=self._clock.save(),
         )
 
     def load_state(self, state: SavedState) -> None:
@@ -405,6 +451,10 @@ class Simulation:
         self._engine.load(state.engine)
         self._streams.load(state.streams)
         self._step = state.step
+        self._clock.restart()
+        if state.pace is not None:
+            self._clock.load(state.pace)
+        self._model.opt.timestep = self._clock.timestep
         self._wrenches = dict(state.wrenches)
-        self._schedule.rewind(state.step, state.added_events)
-        self._gaits.restart(state.step, state.gaits)
+        self._schedule.rewind(self.tick, state.added_events)
+        self._gaits.restart(self.tick, state.gaits)

@@ -157,3 +157,22 @@ def transforms(children: Mapping[str, str]) -> Template:
     for child, parent in children.items():
         template.stamp().string(parent).string(child).doubles(3).doubles(4)
     return template.finish()
+
+
+def joint_command(names: Sequence[str]) -> Template:
+    """Return sensor_msgs/JointState that commands positions: one block (one per name)."""
+    template = Template().string('').uint32(len(names))
+    for name in names:
+        template.string(name)
+    template.uint32(len(names))
+    if names:  # an empty sequence aligns nothing behind it
+        template.doubles(len(names))
+    return template.uint32(0).uint32(0).finish()
+
+
+def multi_array(size: int) -> Template:
+    """Return std_msgs/Float64MultiArray without a layout, with one block (of ``size``)."""
+    template = Template(stamped=False).uint32(0).uint32(0).uint32(size)
+    if size:
+        template.doubles(size)
+    return template.finish()

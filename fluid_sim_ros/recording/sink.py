@@ -54,8 +54,8 @@ class RecordingSink:
 
     def write(self, simulation: Simulation) -> None:
         """Record what is due at this step."""
-        step = simulation.step_count
-        due = [(i, topic) for i, topic in self._topics if step % topic.period == 0]
+        tick = simulation.tick
+        due = [(i, topic) for i, topic in self._topics if tick % topic.period == 0]
         self._states.look()
         self.recorder.tick([(i, self._states.data(topic)) for i, topic in due])
 

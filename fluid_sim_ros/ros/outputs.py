@@ -102,8 +102,8 @@ class Outputs:
         if now - self._refreshed_at > REFRESH_PERIOD:
             self._refreshed_at = now
             self.refresh()
-        step = simulation.step_count
-        due = [topic for topic in self._active if step % topic.period == 0]
+        tick = simulation.tick
+        due = [topic for topic in self._active if tick % topic.period == 0]
         if due:
             recorded = self._publish(due)
             if recorded and self.tap is not None:
@@ -112,8 +112,8 @@ class Outputs:
     def repeat(self, simulation: Simulation) -> None:
         """Publish the present state again, also to subscribers that came since."""
         self.refresh()
-        step = simulation.step_count
-        self._publish([t for t in self._active if step % t.period == 0])
+        tick = simulation.tick
+        self._publish([t for t in self._active if tick % t.period == 0])
 
     def refresh(self) -> None:
         """Look which topics have subscribers; what is recorded is wanted without any."""

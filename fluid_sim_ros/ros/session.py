@@ -109,7 +109,7 @@ class Session:
         except DivergedError as error:
             self.diverged = str(error)
             self._report('diverged', f'{error}; call ~/reset to go on')
-        return self.simulation.step_count >= self._until
+        return self.simulation.tick >= self._until
 
     def idle(self, requests: RequestQueue) -> None:
         """Wait for requests while there is nothing to run, and stay visible."""
@@ -190,7 +190,7 @@ class Session:
         self._check_alive()
         if not self.runner.paused:
             raise CommandError('not paused; call ~/pause with true first')
-        left = self._until - self.simulation.step_count
+        left = self._until - self.simulation.tick
         self.runner.advance_paused(min(self._settings['step_count'], left))
         return self._time()
 

@@ -2,8 +2,8 @@
 Sessions with the real programs (PX4 1.17-alpha iris, ArduCopter and ArduSub 4.7-dev, SITL).
 
 Parts of them: data/*.bin.gz. Records, little endian: direction (u8: 0 to the autopilot, 1 from
-it), simulated time [ms] (u32), length (u16), bytes; PX4's are a TCP stream in portions, those of
-ArduPilot are datagrams.
+it), simulated time [ms] (u32), length (u16), bytes: of PX4 a TCP stream in portions, of ArduPilot
+datagrams.
 """
 
 import gzip

@@ -1,0 +1,251 @@
+"""Which output of an autopilot drives which thruster or joint: config/autopilots."""
+
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.t200 import t200_table
+from fluid_sim_ros.resources import config_folder
+from fluid_sim_ros.schema import Number, Positive, Strict, parse, read_yaml
+from fluid_sim_ros.vehicle import Vehicle
+
+#: Outputs of a HIL_ACTUATOR_CONTROLS and of the longest servo packet.
+OUTPUTS = {'px4': 16, 'ardupilot': 32}
+#: An output that drives nothing counts as commanded when it has moved by this share of 1.
+_MOVED = 0.05
+
+Curve = Callable[[float], float]
+
+
+class ActuatorFile(Strict):
+    """
+    One output of the autopilot.
+
+    Attributes
+    ----------
+    output
+        Its number, from 1.
+    thruster, joint
+        What it drives: one of the two, by its name in the vehicle.
+    input
+        Control values or pulse widths [us] at rest and at full command; three numbers where the
+        actuator works both ways: full reverse, rest, full ahead.
+    curve
+        Of a thruster: ``thrust``, command in proportion to thrust; ``rotor_speed``, to rotor speed
+        (thrust goes with its square); ``t200``, the pulse curve of that thruster.
+    voltage
+        Supply of the T200 [V].
+    reversed
+        Positive commands act backwards.
+
+    """
+
+    output: Annotated[int, Field(ge=1, le=32)]
+    thruster: str = ''
+    joint: str = ''
+    input: Annotated[list[Number], Field(min_length=2, max_length=3)]
+    curve: Literal['thrust', 'rotor_speed', 't200'] = 'thrust'
+    voltage: Positive = 16.0
+    reversed: bool = False
+
+    @model_validator(mode='after')
+    def _is_whole(self) -> 'ActuatorFile':
+        if bool(self.thruster) == bool(self.joint):
+            raise ValueError('names either a thruster or a joint')
+        if sorted(self.input) != self.input or len(set(self.input)) != len(self.input):
+            raise ValueError('input: the numbers must grow')
+        if self.reversed and len(self.input) != 3:
+            raise ValueError('reversed: needs an input of three numbers')
+        return self
+
+
+class AutopilotFile(Strict):
+    """
+    One file of config/autopilots.
+
+    Attributes
+    ----------
+    protocol
+        ``px4`` or ``ardupilot``.
+    airframe
+        What the autopilot itself calls this vehicle: SYS_AUTOSTART of PX4; binary and frame of
+        ArduPilot.
+    actuators
+        What drives each thruster and joint.
+    vision
+        PX4: send the true pose and velocity as a vision system would (vehicles without GNSS).
+    rc
+        PX4: sticks of a radio control [us], sent all the time; empty: none.
+    ignored
+        Outputs that may move without driving anything.
+
+    """
+
+    protocol: Literal['px4', 'ardupilot']
+    airframe: str
+    source: str = ''
+    actuators: list[ActuatorFile]
+    vision: bool = False
+    rc: Annotated[list[Annotated[int, Field(ge=800, le=2200)]], Field(max_length=18)] = []
+    ignored: list[int] = []
+
+
+def load_mapping(protocol: str, vehicle: str, name: str = '') -> tuple[AutopilotFile, Path]:
+    """
+    Read a mapping by name or path; by default that of the protocol and the vehicle.
+
+    Raises
+    ------
+    ConfigError
+        If there is none, it has a fault, or it is of another protocol.
+
+    """
+    folder = config_folder() / 'autopilots'
+    path = Path(name)
+    if path.suffix not in ('.yaml', '.yml'):
+        path = folder / f'{name or f"{protocol}_{vehicle}"}.yaml'
+        if not path.is_file():
+            known = listed(sorted(p.stem for p in folder.glob('*.yaml')))
+            raise ConfigError(
+                f"autopilot mapping '{path.stem}' is not known; mappings: {known}; "
+                'or give the path of one (.yaml)'
+            )
+    file = parse(AutopilotFile, read_yaml(path), path)
+    if file.protocol != protocol:
+        raise ConfigError(f"{path}: key 'protocol': is {file.protocol}, not {protocol}")
+    return file, path
+
+
+class ActuatorMap:
+    """
+    Turns the outputs of an autopilot into commands of a vehicle.
+
+    Parameters
+    ----------
+    file, path
+        The mapping and where it was read.
+    vehicle
+        What it drives.
+
+    Attributes
+    ----------
+    stray
+        Numbers of outputs that moved and drive nothing.
+
+    Raises
+    ------
+    ConfigError
+        If a thruster or joint is not driven exactly once, or an output stands twice.
+
+    """
+
+    def __init__(self, file: AutopilotFile, path: Path, vehicle: Vehicle) -> None:
+        outputs = [a.output for a in file.actuators]
+        for output in outputs:
+            if outputs.count(output) > 1 or output > OUTPUTS[file.protocol]:
+                allowed = f'1 to {OUTPUTS[file.protocol]}, each once'
+                raise ConfigError(f"{path}: key 'actuators': output {output}; allowed: {allowed}")
+        thrusters = {a.thruster: a for a in file.actuators if a.thruster}
+        joints = {a.joint: a for a in file.actuators if a.joint}
+        _check_all(path, 'thruster', [a.thruster for a in file.actuators], vehicle.thrusters)
+        _check_all(path, 'joint', [a.joint for a in file.actuators], vehicle.joints)
+        self._thrusters = [
+            (thrusters[name].output - 1, _curve(thrusters[name], *limits))
+            for name, limits in zip(vehicle.thrusters, vehicle.thrust_range.tolist(), strict=True)
+        ]
+        self._joints = [
+            (joints[name].output - 1, _curve(joints[name], *limits))
+            for name, limits in zip(vehicle.joints, vehicle.joint_range.tolist(), strict=True)
+        ]
+        self._span = max(a.input[-1] - a.input[0] for a in file.actuators)
+        self._watched = sorted(set(range(1, 33)) - {*outputs, *file.ignored})
+        self._seen: Sequence[float] = ()
+        self.stray: list[int] = []
+        self.rest = ([0.0] * len(self._thrusters), [0.0] * len(self._joints))
+
+    def commands(self, outputs: Sequence[float]) -> tuple[list[float], list[float]]:
+        """Return thrusts [N] and joint commands, each in the vehicle's order."""
+        thrusts = [curve(outputs[place]) for place, curve in self._thrusters]
+        return thrusts, [curve(outputs[place]) for place, curve in self._joints]
+
+    def look_for_stray(self, outputs: Sequence[float]) -> int | None:
+        """Return the number of an output that has moved since the first look, drives nothing, and
+        was not returned before."""
+        if len(self._seen) != len(outputs):
+            self._seen = outputs
+        for number in self._watched:
+            if number > len(outputs):
+                return None
+            moved = abs(outputs[number - 1] - self._seen[number - 1]) > _MOVED * self._span
+            if moved and number not in self.stray:
+                self.stray.append(number)
+                return number
+        return None
+
+
+def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]) -> None:
+    """Raise unless each of the existing thrusters or joints is driven exactly once."""
+    driven = [name for name in driven if name]
+    for name in driven:
+        if name not in existing:
+            raise ConfigError(
+                f"{path}: {kind} '{name}' is not in the vehicle; it has: {listed(existing)}"
+            )
+        if driven.count(name) > 1:
+            raise ConfigError(f"{path}: {kind} '{name}' is driven by two outputs")
+    missing = [name for name in existing if name not in driven]
+    if missing:
+        raise ConfigError(
+            f'{path}: drives {len(driven)} of {len(existing)} {kind}s; '
+            f'missing: {listed(missing)}'
+        )
+
+
+def _curve(actuator: ActuatorFile, low: float, high: float) -> Curve:
+    """Return the command [N or rad] of an output's value, between the actuator's limits."""
+    share = _share(actuator.input)
+    sign = -1.0 if actuator.reversed else 1.0
+    if actuator.thruster and actuator.curve == 't200':
+        pulses, thrusts = t200_table(actuator.voltage).T.tolist()
+        # the table is the T200's; the limits are those of the model's thruster
+        return lambda value: min(
+            max(_interpolate(1500.0 + 400.0 * sign * share(value), pulses, thrusts), low), high
+        )
+    if actuator.thruster and actuator.curve == 'rotor_speed':
+        return lambda value: _scaled(sign * share(value) * abs(share(value)), low, high)
+    return lambda value: _scaled(sign * share(value), low, high)
+
+
+def _share(points: Sequence[float]) -> Callable[[float], float]:
+    """Return the share of full command at an output's value; no number, and 0 us, are rest."""
+    rest, full = points[-2], points[-1]
+    reverse = points[0]
+    ahead, back = 1.0 / (full - rest), 1.0 / (rest - reverse) if len(points) == 3 else 0.0
+    silent = rest >= 100.0  # pulse widths: an output that is off sends none
+
+    def share(value: float) -> float:
+        if value > rest:
+            return min((value - rest) * ahead, 1.0)
+        if value < rest and not (silent and value == 0):
+            return max((value - rest) * back, -1.0)
+        return 0.0
+
+    return share
+
+
+def _scaled(share: float, low: float, high: float) -> float:
+    return share * high if share >= 0 else -share * low
+
+
+def _interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:
+    """Return y at x between points; the first and the last y beyond them."""
+    i = bisect_right(xs, x)
+    if i == 0:
+        return ys[0]
+    if i == len(xs):
+        return ys[-1]
+    return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1])

@@ -1,0 +1,86 @@
+"""Simulated time at step boundaries, kept exactly, also where the timestep changes on the way."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from fluid_sim_ros.environment import exact
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Steps of ``timestep_ns`` from step ``first`` on, at which the time was ``begin_ns`` [ns]."""
+
+    timestep_ns: Fraction
+    first: int = 0
+    begin_ns: Fraction = Fraction(0)
+
+
+class StepClock:
+    """
+    Turns steps into time and into ticks.
+
+    A tick is the timestep that the scene states: what is due at a rate, or at a time of the scene,
+    is counted in ticks. As long as the timestep is the scene's, the tick is the step.
+
+    Parameters
+    ----------
+    timestep
+        Of the scene [s].
+
+    """
+
+    def __init__(self, timestep: float) -> None:
+        self._tick_ns = exact(timestep) * 1_000_000_000
+        self.restart()
+
+    def restart(self) -> None:
+        """Go back to time 0 and to the scene's timestep."""
+        self.load(Pace(self._tick_ns))
+
+    def retime(self, step: int, timestep: Fraction) -> None:
+        """Have the steps from ``step`` on take ``timestep`` [s], not above a tick."""
+        begin_ns = Fraction(self._numerator(step), self._denominator)
+        self.load(Pace(timestep * 1_000_000_000, step, begin_ns))
+
+    def save(self) -> Pace:
+        """Return what the time of every later step follows from."""
+        return self._pace
+
+    def load(self, pace: Pace) -> None:
+        """Go on from a saved pace."""
+        self._pace = pace
+        self.retimed = pace != Pace(self._tick_ns)
+        # time [ns] = (base + (step - first) growth) / denominator, in whole numbers
+        length, begin = pace.timestep_ns, pace.begin_ns
+        self._denominator = math.lcm(length.denominator, begin.denominator)
+        self._growth = length.numerator * (self._denominator // length.denominator)
+        self._base = begin.numerator * (self._denominator // begin.denominator)
+        self._first = pace.first
+
+    @property
+    def timestep(self) -> float:
+        """The present timestep [s]."""
+        return float(self._pace.timestep_ns / 1_000_000_000)
+
+    def time(self, step: int) -> float:
+        """Return the time of a step [s]."""
+        return self._numerator(step) / self._denominator * 1e-9
+
+    def time_ns(self, step: int) -> int:
+        """Return the time of a step [ns], rounded once from the exact number."""
+        return (self._numerator(step) + self._denominator // 2) // self._denominator
+
+    def tick(self, step: int) -> int:
+        """Return the whole ticks that have passed at a step."""
+        if not self.retimed:
+            return step
+        tick = self._tick_ns
+        return self._numerator(step) * tick.denominator // (self._denominator * tick.numerator)
+
+    def tick_at(self, time_ns: int) -> int:
+        """Return the first tick at or after a time [ns]."""
+        return math.ceil(time_ns / self._tick_ns)
+
+    def _numerator(self, step: int) -> int:
+        return self._base + (step - self._first) * self._growth
