@@ -13,7 +13,9 @@ class Counters:
     Attributes
     ----------
     connections, disconnections
-        How often an autopilot came and went.
+        How often an autopilot came, and (PX4) closed its connection.
+    restarts
+        How often another process took over, for which the vehicle was put back to its start.
     sent, answered
         States sent, and those that were answered in time.
     repeated
@@ -33,6 +35,7 @@ class Counters:
 
     connections: int = 0
     disconnections: int = 0
+    restarts: int = 0
     sent: int = 0
     answered: int = 0
     repeated: int = 0

@@ -18,6 +18,7 @@ OUTPUTS = {'px4': 16, 'ardupilot': 32}
 #: An output that drives nothing counts as commanded when it has moved by this share of 1.
 _MOVED = 0.05
 
+Pulse = Annotated[int, Field(ge=800, le=2200)]
 Curve = Callable[[float], float]
 
 
@@ -90,8 +91,8 @@ class AutopilotFile(Strict):
     source: str = ''
     actuators: list[ActuatorFile]
     vision: bool = False
-    rc: Annotated[list[Annotated[int, Field(ge=800, le=2200)]], Field(max_length=18)] = []
-    ignored: list[int] = []
+    rc: Annotated[tuple[Pulse, ...], Field(max_length=18)] = ()
+    ignored: tuple[int, ...] = ()
 
 
 def load_mapping(protocol: str, vehicle: str, name: str = '') -> tuple[AutopilotFile, Path]:
@@ -173,8 +174,7 @@ class ActuatorMap:
         return thrusts, [curve(outputs[place]) for place, curve in self._joints]
 
     def look_for_stray(self, outputs: Sequence[float]) -> int | None:
-        """Return the number of an output that has moved since the first look, drives nothing, and
-        was not returned before."""
+        """Return an output that has moved since the first look and drives nothing, once each."""
         if len(self._seen) != len(outputs):
             self._seen = outputs
         for number in self._watched:
@@ -200,8 +200,7 @@ def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]
     missing = [name for name in existing if name not in driven]
     if missing:
         raise ConfigError(
-            f'{path}: drives {len(driven)} of {len(existing)} {kind}s; '
-            f'missing: {listed(missing)}'
+            f'{path}: drives {len(driven)} of {len(existing)} {kind}s; missing: {listed(missing)}'
         )
 
 

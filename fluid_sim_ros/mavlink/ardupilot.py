@@ -1,0 +1,238 @@
+"""
+ArduPilot in lockstep: a servo packet comes in, one frame is simulated, its end is the reply.
+
+The autopilot leads: it says with each packet how long its frame is. The frame is split into equal
+steps no longer than the scene's timestep; without packets simulated time stands still.
+"""
+
+import time
+from fractions import Fraction
+from typing import Any
+
+from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
+from fluid_sim_ros.environment import exact
+from fluid_sim_ros.mavlink.counters import Counters
+from fluid_sim_ros.mavlink.json_packets import (
+    LONGEST_PACKET,
+    JsonState,
+    ServoPacket,
+    read_servo_packet,
+    write_state,
+)
+from fluid_sim_ros.mavlink.mapping import ActuatorMap
+from fluid_sim_ros.mavlink.sockets import UdpPort
+from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
+from fluid_sim_ros.simulation import Simulation
+
+#: Port of the first instance, and from one instance to the next.
+FIRST_PORT, PORT_STEP = 9002, 10
+#: Longest wait at a time [s], so that requests of other threads are served.
+_SLICE = 0.05
+
+
+class ArduPilotBridge:
+    """
+    One ArduPilot at one vehicle.
+
+    Parameters
+    ----------
+    simulation, options, surroundings
+        As for ``autopilot.open_bridge``.
+    actuators
+        What its outputs drive.
+
+    Attributes
+    ----------
+    counters
+        What has happened.
+
+    Raises
+    ------
+    ConfigError
+        If the port is in use.
+
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        options: AutopilotOptions,
+        surroundings: Surroundings,
+        actuators: ActuatorMap,
+    ) -> None:
+        self.vehicle = options.vehicle
+        self.counters = Counters()
+        self._surroundings = surroundings
+        self._timeout = options.timeout
+        self._actuators = actuators
+        self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
+        self._truth = TruthReader(simulation, options.vehicle)
+        self._aerial = simulation.streams == ('wind',)
+        self._longest = exact(simulation.timestep)
+        port = options.port or FIRST_PORT + PORT_STEP * options.instance
+        self._port = UdpPort(options.address, port, LONGEST_PACKET)
+        self.port = self._port.port
+        self._peer: Any = None
+        self._heard_at = 0.0
+        self._gone = False
+        self._count = -1
+        self._rate = 0
+        self._steps = 0  # of a frame
+        self._frame_end = 0  # step at which the present frame ends
+        self._owed = False  # the autopilot waits for the state at the frame's end
+        self._waiting: ServoPacket | None = None  # first packet of a process that has restarted
+        self._reply = b''
+        self._sent_ns = 0
+        self._offset_ns = 0  # from simulated time to that of the autopilot
+
+    # ---- the pacing's side -----------------------------------------------------------------
+
+    def begin(self, simulation: Simulation) -> None:
+        """Let the autopilot's time go on where a reset has set the simulation's back."""
+        now_ns = simulation.time_ns
+        if now_ns + self._offset_ns < self._sent_ns:
+            frame_ns = 1_000_000_000 // self._rate if self._owed else 0
+            self._offset_ns = self._sent_ns + frame_ns - now_ns
+            self._frame_end = simulation.step_count
+            self._rate = 0  # the reset took the scene's timestep
+
+    def steps_left(self, simulation: Simulation) -> int:
+        """Return the steps to the end of the frame."""
+        return max(1, self._frame_end - simulation.step_count)
+
+    def meet(self, simulation: Simulation) -> bool:
+        """Answer at the end of a frame, and begin the next one with the packet that follows."""
+        if simulation.step_count < self._frame_end:
+            return True
+        if self._owed:
+            self._answer(simulation)
+        packet, self._waiting = self._waiting, None
+        if packet is None:
+            packet = self._next_packet(simulation)
+        if packet is None:
+            return False
+        self._start_frame(simulation, packet)
+        return True
+
+    def status(self) -> BridgeStatus:
+        """Return what to show people."""
+        counters = self.counters
+        values = {
+            'protocol': 'ardupilot', 'port': self.port, 'peer': _text(self._peer),
+            'frame_rate_hz': self._rate, 'frame_count': self._count,
+            'saturated': self._commands.saturated, **counters.values(),
+        }  # fmt: skip
+        if self._peer is None:
+            return BridgeStatus('warn', f'waiting for ArduPilot on UDP port {self.port}', values)
+        if self._gone:
+            return BridgeStatus('error', 'ArduPilot is silent; waiting for it', values)
+        if counters.malformed:
+            line = f'{counters.malformed} malformed packets, last: {counters.last_fault}'
+            return BridgeStatus('warn', line, values)
+        return BridgeStatus('ok', 'in lockstep', values)
+
+    def close(self) -> None:
+        """Close the socket."""
+        self._port.close()
+
+    # ---- one frame -------------------------------------------------------------------------
+
+    def _answer(self, simulation: Simulation) -> None:
+        truth = self._truth.read(forces=True)
+        self._sent_ns = simulation.time_ns + self._offset_ns
+        self._reply = write_state(
+            JsonState(
+                self._sent_ns, truth.rates, truth.specific_force, truth.position_ned,
+                truth.velocity_ned, truth.attitude,
+                wind=truth.air_ned if self._aerial else None,
+            )
+        )  # fmt: skip
+        self._owed = False
+        self.counters.sent += 1
+        self._port.send(self._reply, self._peer)
+
+    def _start_frame(self, simulation: Simulation, packet: ServoPacket) -> None:
+        if packet.rate != self._rate:
+            self._rate = packet.rate
+            frame = Fraction(1, packet.rate)
+            self._steps = -int(-frame // self._longest)  # rounded up
+            timestep = frame / self._steps
+            simulation.set_timestep(timestep)
+            if self._surroundings.log is not None:
+                self._surroundings.log.event(timestep=str(timestep))
+        self._count = packet.count
+        self._commands.set(*self._actuators.commands(packet.pulses))
+        stray = self._actuators.look_for_stray(packet.pulses)
+        if stray is not None:
+            self._surroundings.report(
+                f'output {stray}', f'ArduPilot moves output {stray}, which drives nothing'
+            )
+        self.counters.answered += 1
+        self._frame_end = simulation.step_count + self._steps
+        self._owed = True
+
+    # ---- packets ---------------------------------------------------------------------------
+
+    def _next_packet(self, simulation: Simulation) -> ServoPacket | None:
+        """Return the packet that begins the next frame, or None when it is not there yet."""
+        got = self._port.receive(_SLICE)
+        now = time.monotonic()
+        if got is None:
+            self._note_silence(now)
+            return None
+        data, sender = got
+        packet = read_servo_packet(data)
+        if isinstance(packet, str):
+            self.counters.fault(packet)
+            self._surroundings.report('malformed', f'ArduPilot: {packet}')
+            return None
+        if sender != self._peer and not self._adopt(sender, now):
+            return None
+        self._heard_at = now
+        if self._gone:
+            self._gone = False
+            self._surroundings.report('back', 'ArduPilot answers again')
+        if packet.count == self._count:
+            self.counters.repeated += 1
+            if self._reply:
+                self._port.send(self._reply, sender)
+            return None
+        if packet.count < self._count:
+            self._restart(simulation, packet)
+            return None
+        if self._count >= 0:
+            self.counters.missed += packet.count - self._count - 1
+        return packet
+
+    def _adopt(self, sender: Any, now: float) -> bool:
+        """Take a new sender as the autopilot, unless the present one is still there."""
+        if self._peer is not None and now - self._heard_at < self._timeout:
+            self.counters.strangers += 1
+            return False
+        self._peer = sender
+        self.counters.connections += 1
+        self._surroundings.report('connected', f'ArduPilot at {_text(sender)}')
+        return True
+
+    def _restart(self, simulation: Simulation, packet: ServoPacket) -> None:
+        """Begin anew with a process whose frames count from the start again."""
+        self.counters.restarts += 1
+        self._surroundings.report('restarted', 'ArduPilot has restarted: back to the start')
+        self._sent_ns = self._offset_ns = 0
+        self._count, self._rate, self._reply = -1, 0, b''
+        self._owed = False
+        self._surroundings.reset()
+        self._frame_end = simulation.step_count
+        self._waiting = packet
+
+    def _note_silence(self, now: float) -> None:
+        if self._peer is not None and not self._gone and now - self._heard_at > self._timeout:
+            self._gone = True
+            self.counters.gone += 1
+            self._surroundings.report(
+                'gone', f'ArduPilot: nothing for {self._timeout:g} s; waiting on port {self.port}'
+            )
+
+
+def _text(sender: Any) -> str:
+    return f'{sender[0]}:{sender[1]}' if sender else ''

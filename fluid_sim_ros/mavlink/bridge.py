@@ -1,0 +1,46 @@
+"""Opens the bridge of a protocol; see ``fluid_sim_ros.autopilot``."""
+
+from dataclasses import replace
+
+from fluid_sim_ros.autopilot import (
+    PROTOCOLS,
+    AutopilotOptions,
+    Bridge,
+    Surroundings,
+)
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.mavlink.ardupilot import ArduPilotBridge
+from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
+from fluid_sim_ros.simulation import Simulation
+
+
+def open_bridge(
+    simulation: Simulation, options: AutopilotOptions, surroundings: Surroundings
+) -> Bridge:
+    """
+    Listen for an autopilot.
+
+    Raises
+    ------
+    ConfigError
+        If the protocol, the vehicle or the mapping is wrong, or the port is in use.
+
+    """
+    if options.protocol not in PROTOCOLS:
+        raise ConfigError(
+            f"autopilot protocol '{options.protocol}' is not known; allowed: {listed(PROTOCOLS)}"
+        )
+    if not options.vehicle:
+        if len(simulation.vehicles) != 1:
+            names = listed(simulation.vehicles)
+            raise ConfigError(f'autopilot: name the vehicle that it flies, one of: {names}')
+        options = replace(options, vehicle=next(iter(simulation.vehicles)))
+    vehicle = simulation.vehicle(options.vehicle)
+    file, path = load_mapping(options.protocol, vehicle.name, options.mapping)
+    actuators = ActuatorMap(file, path, vehicle)
+    if options.protocol == 'px4':
+        # only this protocol needs pymavlink
+        from fluid_sim_ros.mavlink.px4 import Px4Bridge
+
+        return Px4Bridge(simulation, options, surroundings, actuators, file)
+    return ArduPilotBridge(simulation, options, surroundings, actuators)

@@ -1,0 +1,148 @@
+"""What PX4 gets to know of its vehicle at every exchange: sensor messages and, for its log, truth."""
+
+import random
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.mavlink.hil_messages import HilCodec, SensorReadings
+from fluid_sim_ros.mavlink.mapping import AutopilotFile
+from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
+from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
+from fluid_sim_ros.physics.atmosphere import (
+    pressure_altitude,
+    standard_pressure,
+    standard_temperature,
+)
+from fluid_sim_ros.sensor_schema import SensorFile, SensorsFile
+from fluid_sim_ros.sensors import SensorSuite
+from fluid_sim_ros.sensors.geodesy import LocalFrame
+from fluid_sim_ros.simulation import Simulation
+
+#: Exchanges per second.
+RATE = 250
+#: Every so many exchanges: magnetic field (83 Hz), pressures and vision (50 Hz), truth and GNSS
+#: (10 Hz), radio control (10 Hz), heartbeat (1 Hz).
+_FIELD, _PRESSURE, _TRUTH, _STICKS, _HEARTBEAT = 3, 5, 25, 25, 250
+_GAUSS, _HECTOPASCAL, _CELSIUS = 1e4, 1e-2, -273.15
+#: Of the pressure that is sent with vision [Pa], either way.
+_DITHER = 1.0
+#: Variances that go with the true pose and velocity: [m^2] and [rad^2], [m^2/s^2] and [rad^2/s^2].
+_POSE_VARIANCE = (1e-4,) * 3 + (1e-5,) * 3
+_TWIST_VARIANCE = (1e-4,) * 3 + (1e-5,) * 3
+
+
+class HilState:
+    """
+    Builds the messages of one exchange.
+
+    The vehicle's own sensors measure, at the rates that PX4 wants, and always with dither: PX4
+    takes a reading that never changes for a dead sensor. A vehicle with ``vision`` (under water)
+    gets its true pose as ODOMETRY instead of HIL_GPS, and of its barometer the pressure that the
+    standard atmosphere has at its height, negative heights included: PX4 knows no other medium.
+
+    Parameters
+    ----------
+    simulation, vehicle
+        Who is measured.
+    file
+        The mapping.
+
+    Raises
+    ------
+    ConfigError
+        If the vehicle lacks a sensor that PX4 needs, or a latency is not a multiple of 4 ms.
+
+    """
+
+    def __init__(self, simulation: Simulation, vehicle: str, file: AutopilotFile) -> None:
+        self.armed = False
+        self._simulation = simulation
+        self._vision, self._rc = file.vision, tuple(file.rc)
+        self._truth = TruthReader(simulation, vehicle)
+        home = simulation.scene.home
+        self._frame, self._altitude = LocalFrame(home), home.altitude
+        config = _for_px4(simulation.vehicle(vehicle).sensors, vehicle, file.vision)
+        self._suite = suite = SensorSuite(simulation, vehicle, config)
+        self._imu, self._magnetometer = suite.imu, suite.magnetometer
+        self._barometer, self._gnss, self._airspeed = suite.barometer, suite.gnss, suite.airspeed
+        if suite.period != self._imu.period:
+            raise ConfigError(
+                f"px4: '{vehicle}': latencies of its sensors must be multiples of 4 ms"
+            )
+        self._noise = random.Random(simulation.seed)
+        self._count = 0
+
+    def messages(self, codec: HilCodec, now_us: int) -> bytes:
+        """Return the messages of the exchange at ``now_us``, the autopilot's time [us]."""
+        self._suite.update()
+        count, self._count = self._count, self._count + 1
+        readings = self._readings(count)
+        data = b'' if count % _HEARTBEAT else codec.heartbeat()
+        if self._vision and count % _PRESSURE == 0:
+            truth = self._truth.read(forces=False)
+            data += codec.odometry(
+                now_us, truth.position_ned, truth.attitude, truth.velocity_frd, truth.rates,
+                _POSE_VARIANCE, _TWIST_VARIANCE,
+            )  # fmt: skip
+            self._read_pressure(readings, -truth.position_ned[2])
+        if self._gnss is not None and self._gnss.fresh:
+            gnss = self._gnss
+            velocity = enu_to_ned(gnss.velocity_w.tolist())
+            data += codec.gps(now_us, gnss.latitude, gnss.longitude, gnss.altitude, velocity)
+        if count % _TRUTH == 0:
+            data += self._true_state(codec, now_us)
+        if self._rc and count % _STICKS == 0:
+            data += codec.rc_channels(now_us // 1000, self._rc)
+        # last, because it is what PX4 answers to
+        return data + codec.sensors(now_us, readings)
+
+    def _readings(self, count: int) -> SensorReadings:
+        imu, barometer, airspeed = self._imu, self._barometer, self._airspeed
+        readings = SensorReadings(
+            flu_to_frd(imu.specific_force.tolist()), flu_to_frd(imu.angular_velocity.tolist())
+        )
+        if count % _FIELD == 0:
+            x, y, z = self._magnetometer.field.tolist()
+            readings.magnetic_field = (_GAUSS * x, -_GAUSS * y, -_GAUSS * z)
+        if barometer is not None and barometer.fresh:
+            readings.pressure = _HECTOPASCAL * barometer.pressure
+            readings.pressure_altitude = barometer.altitude
+            readings.temperature = barometer.temperature + _CELSIUS
+        if airspeed is not None and airspeed.fresh:
+            readings.differential_pressure = _HECTOPASCAL * airspeed.differential_pressure
+        return readings
+
+    def _read_pressure(self, readings: SensorReadings, height: float) -> None:
+        """Fill in the pressure that the standard atmosphere has at a height [m]."""
+        pressure = standard_pressure(self._altitude + height) + self._noise.uniform(-_DITHER, _DITHER)
+        readings.pressure = _HECTOPASCAL * pressure
+        readings.pressure_altitude = pressure_altitude(pressure)
+        readings.temperature = standard_temperature(readings.pressure_altitude) + _CELSIUS
+
+    def _true_state(self, codec: HilCodec, now_us: int) -> bytes:
+        truth = self._truth.read(forces=True)
+        north, east, down = truth.position_ned
+        return codec.truth(
+            now_us, truth.attitude, truth.rates, self._frame.geodetic(east, north, -down),
+            truth.velocity_ned, truth.airspeed, truth.specific_force,
+        )  # fmt: skip
+
+
+def _for_px4(sensors: SensorsFile, vehicle: str, vision: bool) -> SensorsFile:
+    """Return a vehicle's sensors at the rates that PX4 wants."""
+    wanted = {'imu': RATE, 'magnetometer': RATE, 'airspeed': RATE / _PRESSURE}
+    required = ['imu', 'magnetometer']
+    if not vision:
+        wanted |= {'barometer': RATE / _PRESSURE, 'gnss': RATE / _TRUTH}
+        required += ['barometer', 'gnss']
+    for kind in required:
+        if getattr(sensors, kind) is None:
+            raise ConfigError(
+                f"px4: vehicle '{vehicle}' has no {kind}; add one under 'sensors' of its file in "
+                'config/vehicles'
+            )
+    chosen: dict[str, SensorFile] = {}
+    for kind, rate in wanted.items():
+        sensor: SensorFile | None = getattr(sensors, kind)
+        if sensor is not None:
+            chosen[kind] = sensor.model_copy(update={'rate': float(rate)})
+    return SensorsFile.model_validate({'dither': True}).model_copy(update=chosen)

@@ -1,0 +1,66 @@
+"""Ends of a bridge that a test plays: raw sockets and a runner in a thread."""
+
+import contextlib
+import socket
+import threading
+from collections.abc import Iterator
+
+from fluid_sim_ros import Simulation
+from fluid_sim_ros.autopilot import AutopilotOptions, AutopilotPacing, Surroundings, open_bridge
+from fluid_sim_ros.environment import NEVER
+from fluid_sim_ros.pacing import Pacing
+from fluid_sim_ros.runner import NoSource, Runner
+
+
+def free_port(protocol: str) -> int:
+    """Return a port that nobody listens on."""
+    kind = socket.SOCK_STREAM if protocol == 'px4' else socket.SOCK_DGRAM
+    with socket.socket(socket.AF_INET, kind) as probe:
+        probe.bind(('127.0.0.1', 0))
+        return probe.getsockname()[1]
+
+
+class Flight:
+    """A simulation with a bridge, run in a thread of its own; ``reports`` are (key, line)."""
+
+    def __init__(self, scene: str, protocol: str, clock: Pacing | None = None, **options) -> None:
+        self.reports: list[tuple[str, str]] = []
+        self.simulation = Simulation(scene)
+        surroundings = Surroundings(
+            report=lambda key, line: self.reports.append((key, line)), reset=self._reset
+        )
+        # a port of the system's choice, so that tests run side by side
+        chosen = AutopilotOptions(protocol, **{'port': free_port(protocol), **options})
+        self.bridge = open_bridge(self.simulation, chosen, surroundings)
+        self.port = self.bridge.port
+        pacing = AutopilotPacing(self.bridge, clock or Pacing())
+        self.runner = Runner(self.simulation, NoSource(), [], pacing)
+        self.resets = 0
+        self.error: Exception | None = None
+
+    def _reset(self) -> None:
+        self.resets += 1
+        self.simulation.reset()
+        self.runner.restart()
+
+    def _run(self, until: int) -> None:
+        try:
+            self.runner.run(until)
+        except Exception as error:  # noqa: BLE001 - raised again where the block is left
+            self.error = error
+
+    @contextlib.contextmanager
+    def running(self, until: int = NEVER) -> Iterator['Flight']:
+        """Run until the block is left."""
+        thread = threading.Thread(target=self._run, args=(until,), daemon=True)
+        thread.start()
+        try:
+            yield self
+        finally:
+            self.runner.stop()
+            thread.join(5.0)
+            alive = thread.is_alive()
+            self.bridge.close()
+            assert not alive, 'the loop hangs'
+            if self.error is not None:
+                raise self.error
