@@ -11,9 +11,9 @@ from fluid_sim_ros.scene_schema import ScheduledEvent
 NEVER = 1 << 62
 
 
-def exact(value: float) -> Fraction:
+def exact(value: float | Fraction) -> Fraction:
     """Return the decimal number that a person wrote, exactly (``0.002`` -> 1/500)."""
-    return Fraction(repr(float(value)))
+    return value if isinstance(value, Fraction) else Fraction(repr(float(value)))
 
 
 def whole_steps(seconds: float, timestep: float, what: str) -> int:

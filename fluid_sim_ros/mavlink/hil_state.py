@@ -1,6 +1,8 @@
-"""What PX4 gets to know of its vehicle at every exchange: sensor messages and, for its log, truth."""
+"""What PX4 gets to know of its vehicle at every exchange: its sensors and, for its log, truth."""
 
 import random
+from fractions import Fraction
+from typing import TypeVar
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.hil_messages import HilCodec, SensorReadings
@@ -12,10 +14,13 @@ from fluid_sim_ros.physics.atmosphere import (
     standard_pressure,
     standard_temperature,
 )
-from fluid_sim_ros.sensor_schema import SensorFile, SensorsFile
+from fluid_sim_ros.sensor_schema import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.sensors.geodesy import LocalFrame
+from fluid_sim_ros.sensors.sensor import Sensor
 from fluid_sim_ros.simulation import Simulation
+
+Present = TypeVar('Present', bound=Sensor)
 
 #: Exchanges per second.
 RATE = 250
@@ -60,10 +65,14 @@ class HilState:
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home
         self._frame, self._altitude = LocalFrame(home), home.altitude
-        config = _for_px4(simulation.vehicle(vehicle).sensors, vehicle, file.vision)
+        config = _for_px4(simulation.vehicle(vehicle).sensors, file.vision)
         self._suite = suite = SensorSuite(simulation, vehicle, config)
-        self._imu, self._magnetometer = suite.imu, suite.magnetometer
+        self._imu = _there(suite.imu, 'imu', vehicle)
+        self._magnetometer = _there(suite.magnetometer, 'magnetometer', vehicle)
         self._barometer, self._gnss, self._airspeed = suite.barometer, suite.gnss, suite.airspeed
+        if not file.vision:
+            _there(suite.barometer, 'barometer', vehicle)
+            _there(suite.gnss, 'gnss', vehicle)
         if suite.period != self._imu.period:
             raise ConfigError(
                 f"px4: '{vehicle}': latencies of its sensors must be multiples of 4 ms"
@@ -75,7 +84,7 @@ class HilState:
         """Return the messages of the exchange at ``now_us``, the autopilot's time [us]."""
         self._suite.update()
         count, self._count = self._count, self._count + 1
-        readings = self._readings(count)
+        readings = self._readings()
         data = b'' if count % _HEARTBEAT else codec.heartbeat()
         if self._vision and count % _PRESSURE == 0:
             truth = self._truth.read(forces=False)
@@ -95,12 +104,12 @@ class HilState:
         # last, because it is what PX4 answers to
         return data + codec.sensors(now_us, readings)
 
-    def _readings(self, count: int) -> SensorReadings:
+    def _readings(self) -> SensorReadings:
         imu, barometer, airspeed = self._imu, self._barometer, self._airspeed
         readings = SensorReadings(
             flu_to_frd(imu.specific_force.tolist()), flu_to_frd(imu.angular_velocity.tolist())
         )
-        if count % _FIELD == 0:
+        if self._magnetometer.fresh:
             x, y, z = self._magnetometer.field.tolist()
             readings.magnetic_field = (_GAUSS * x, -_GAUSS * y, -_GAUSS * z)
         if barometer is not None and barometer.fresh:
@@ -113,7 +122,8 @@ class HilState:
 
     def _read_pressure(self, readings: SensorReadings, height: float) -> None:
         """Fill in the pressure that the standard atmosphere has at a height [m]."""
-        pressure = standard_pressure(self._altitude + height) + self._noise.uniform(-_DITHER, _DITHER)
+        pressure = standard_pressure(self._altitude + height)
+        pressure += self._noise.uniform(-_DITHER, _DITHER)
         readings.pressure = _HECTOPASCAL * pressure
         readings.pressure_altitude = pressure_altitude(pressure)
         readings.temperature = standard_temperature(readings.pressure_altitude) + _CELSIUS
@@ -127,22 +137,25 @@ class HilState:
         )  # fmt: skip
 
 
-def _for_px4(sensors: SensorsFile, vehicle: str, vision: bool) -> SensorsFile:
-    """Return a vehicle's sensors at the rates that PX4 wants."""
-    wanted = {'imu': RATE, 'magnetometer': RATE, 'airspeed': RATE / _PRESSURE}
-    required = ['imu', 'magnetometer']
+def _there(sensor: Present | None, kind: str, vehicle: str) -> Present:
+    """Return a sensor that PX4 cannot do without, or raise ConfigError."""
+    if sensor is None:
+        raise ConfigError(
+            f"px4: vehicle '{vehicle}' has no {kind}; add one under 'sensors' of its file in "
+            'config/vehicles'
+        )
+    return sensor
+
+
+def _for_px4(sensors: SensorsFile, vision: bool) -> SensorsFile:
+    """Return those of a vehicle's sensors that PX4 takes, at the rates that it wants."""
+    periods = {'imu': 1, 'magnetometer': _FIELD, 'airspeed': _PRESSURE}
     if not vision:
-        wanted |= {'barometer': RATE / _PRESSURE, 'gnss': RATE / _TRUTH}
-        required += ['barometer', 'gnss']
-    for kind in required:
-        if getattr(sensors, kind) is None:
-            raise ConfigError(
-                f"px4: vehicle '{vehicle}' has no {kind}; add one under 'sensors' of its file in "
-                'config/vehicles'
-            )
-    chosen: dict[str, SensorFile] = {}
-    for kind, rate in wanted.items():
-        sensor: SensorFile | None = getattr(sensors, kind)
-        if sensor is not None:
-            chosen[kind] = sensor.model_copy(update={'rate': float(rate)})
-    return SensorsFile.model_validate({'dither': True}).model_copy(update=chosen)
+        periods |= {'barometer': _PRESSURE, 'gnss': _TRUTH}
+    chosen = {
+        # a fraction, because 83.3 Hz has no decimal number
+        kind: getattr(sensors, kind).model_copy(update={'rate': Fraction(RATE, period)})
+        for kind, period in periods.items()
+        if getattr(sensors, kind) is not None
+    }
+    return SensorsFile(dither=True).model_copy(update=chosen)

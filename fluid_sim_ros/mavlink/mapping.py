@@ -1,5 +1,6 @@
 """Which output of an autopilot drives which thruster or joint: config/autopilots."""
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -227,6 +228,8 @@ def _share(points: Sequence[float]) -> Callable[[float], float]:
     silent = rest >= 100.0  # pulse widths: an output that is off sends none
 
     def share(value: float) -> float:
+        if not math.isfinite(value):
+            return 0.0
         if value > rest:
             return min((value - rest) * ahead, 1.0)
         if value < rest and not (silent and value == 0):

@@ -178,7 +178,7 @@ class Sensor(ABC):
         self._arm = self.mount.position_b.tolist()
         self._matrix = np.empty(9)
         self._errors = Errors(
-            channels, config.rate, carrier.seed, f'{vehicle.name}/{config.kind}',
+            channels, float(config.rate), carrier.seed, f'{vehicle.name}/{config.kind}',
             dither if carrier.dither else (), self.infinite_beyond,
         )  # fmt: skip
         width = sum(count for _, count in channels)

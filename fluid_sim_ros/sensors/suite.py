@@ -84,7 +84,7 @@ class SensorSuite:
 
     def update(self) -> None:
         """Sample what is due at this step boundary."""
-        step = self._simulation.step_count
+        step = self._simulation.tick
         due = [sensor for sensor in self.sensors if step % sensor.period == 0]
         if due:
             self._simulation.observe(any([sensor.needs_forces for sensor in due]))

@@ -16,7 +16,7 @@ from ardupilot_stand_in import (
     Submarine,
     padded,
 )
-from peers import Flight
+from peers import Flight, waited
 
 from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings, open_bridge
 from fluid_sim_ros.errors import ConfigError
@@ -37,14 +37,6 @@ def link(flight):
     link = Link(flight.port)
     yield link
     link.close()
-
-
-def waited(condition, seconds=3.0):
-    """Poll until a condition holds; return whether it does."""
-    deadline = time.monotonic() + seconds
-    while not condition() and time.monotonic() < deadline:
-        time.sleep(0.002)
-    return condition()
 
 
 # ---- lockstep ------------------------------------------------------------------------------

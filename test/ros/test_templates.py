@@ -8,6 +8,7 @@ from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_typestore
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
 
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.definitions import definition
@@ -21,7 +22,8 @@ TIME_NS = 1_234_567_890_123
 def fill(template, *blocks):
     stamp = templates.StampBytes()
     stamp.set(TIME_NS)
-    template.stamps[0][:] = stamp.view
+    for place in template.stamps:
+        place[:] = stamp.view
     for target, numbers in zip(template.blocks, blocks, strict=True):
         target[:] = templates.as_bytes(np.array(numbers, dtype=float))
     return template
@@ -112,3 +114,19 @@ def test_transforms():
         assert [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w] == row.tolist()
     # the kept definition, too, is that of an independent source
     assert definition(TRANSFORMS).hash == kinds.hash_rihs01(TRANSFORMS)
+
+
+@pytest.mark.parametrize('count', [0, 1, 4])
+def test_joint_command(count):
+    names = [f'fin{"x" * i}' for i in range(count)]
+    message = stamped(JointState(name=names))
+    row = np.random.default_rng(count).normal(size=count)
+    message.position = row.tolist()
+    assert_same(fill(templates.joint_command(names), *([row] if count else [])), message)
+
+
+@pytest.mark.parametrize('count', [0, 1, 4])
+def test_multi_array(count):
+    row = np.random.default_rng(count).normal(size=count)
+    template = fill(templates.multi_array(count), *([row] if count else []))
+    assert_same(template, Float64MultiArray(data=row.tolist()))
