@@ -136,7 +136,7 @@ def mjcf_of(design: Design) -> str:
     scenery = _SCENERY.format(
         name=design.name, extent=_n(3 * largest), start=_n(start),
         sky='.12 .42 .52" rgb2=".02 .07 .12' if water else '.72 .82 .92" rgb2=".35 .5 .7',
-        floor=_n(3 * start if water else 0), camera=_n(1.8 * largest * np.array([1, -1, 0.7])),
+        floor=_n(3 * start if water else 0), camera=_n(1.4 * largest * np.array([1, -1, 0.7])),
         mass=_n(design.mass), inertia=_n(design.inertia, 6),
     )  # fmt: skip
     return ''.join([
