@@ -82,7 +82,7 @@ _SCENERY = """  </extension>
     <body name="{name}" pos="0 0 {start}" simple="false">
       <freejoint name="{name}"/>
       <camera name="track" mode="trackcom" pos="{camera}" xyaxes=".71 .71 0 -.3 .3 .9"/>
-      <!-- the body's origin is its centre of mass; guess: moments of inertia of an even box -->
+      <!-- the body's origin is its centre of mass; guess: moments of inertia of an even box{box} -->
       <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia}"/>
 """
 _BODY = """      <plugin plugin="fluid_sim.body">
@@ -138,6 +138,7 @@ def mjcf_of(design: Design) -> str:
         sky='.12 .42 .52" rgb2=".02 .07 .12' if water else '.72 .82 .92" rgb2=".35 .5 .7',
         floor=_n(3 * start if water else 0), camera=_n(1.4 * largest * np.array([1, -1, 0.7])),
         mass=_n(design.mass), inertia=_n(design.inertia, 6),
+        box='' if water else ',\n           from which the drag box follows too',
     )  # fmt: skip
     return ''.join([
         head, _WATER if water else '', _thrusters(design), scenery,
