@@ -82,7 +82,7 @@ _SCENERY = """  </extension>
     <body name="{name}" pos="0 0 {start}" simple="false">
       <freejoint name="{name}"/>
       <camera name="track" mode="trackcom" pos="{camera}" xyaxes=".71 .71 0 -.3 .3 .9"/>
-      <!-- the body's origin is its centre of mass; guess: moments of inertia of an even box{box} -->
+      <!-- origin: centre of mass; guess: moments of inertia of an even box{box} -->
       <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia}"/>
 """
 _BODY = """      <plugin plugin="fluid_sim.body">
