@@ -118,11 +118,13 @@ ROS = ['ros-jazzy-rclpy[fastrtps]>=7.1,<8', 'ros-jazzy-common-interfaces>=5.3,<6
 MAVLINK = ['pymavlink>=2.4.41,<3']
 RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
+# Ray carries sweeps beyond one machine; threads need pyarrow only.
+SWEEP = ['pyarrow>=16', 'ray>=2.40,<3']
 RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
 TEST = [
     *MAVLINK,
     *RENDER,
-    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', 'pyarrow>=16',
+    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', *SWEEP,
     *CHARTS,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
@@ -171,6 +173,7 @@ setup(
         'mavlink': MAVLINK,
         'record': RECORD,
         'render': RENDER,
+        'sweep': SWEEP,
         'charts': CHARTS,
         'test': TEST,
         'dev': DEV,

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluid_sim_ros import __version__, cli_lab, cli_logs, cli_vehicle
+from fluid_sim_ros import __version__, cli_lab, cli_logs, cli_sweep, cli_vehicle
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -96,6 +96,7 @@ def _build_parser() -> argparse.ArgumentParser:
     cli_vehicle.add_parser(commands, _show, json_help)
     cli_logs.add_parsers(commands, _show, json_help)
     cli_lab.add_parsers(commands, _show, json_help)
+    cli_sweep.add_parser(commands, _show, json_help)
 
     commands.add_parser(
         'demo', add_help=False, help='quadrotor in a gust: simulator and controller over ROS 2'

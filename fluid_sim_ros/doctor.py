@@ -29,7 +29,7 @@ MESSAGES = (
     'builtin_interfaces', 'diagnostic_msgs', 'geometry_msgs', 'lifecycle_msgs', 'nav_msgs',
     'rcl_interfaces', 'rosgraph_msgs', 'sensor_msgs', 'std_msgs', 'std_srvs', 'visualization_msgs',
 )  # fmt: skip
-EXTRAS = {'charts': 'matplotlib', 'record': 'mcap', 'mavlink': 'pymavlink'}
+EXTRAS = {'charts': 'matplotlib', 'record': 'mcap', 'mavlink': 'pymavlink', 'sweep': 'ray'}
 TOOLS = {'ruff': 'ruff', 'mypy': 'mypy', 'clang-format': 'clang-format', 'colcon': 'colcon-core'}
 
 

@@ -10,6 +10,7 @@ from fluid_sim_ros.environment import Schedule
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.fluid_rungs import compile_spec, force_fluid
 from fluid_sim_ros.gaits import Gaits
+from fluid_sim_ros.mass_factors import scale_masses
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
@@ -60,6 +61,8 @@ class Scene:
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
+    masses
+        Body name -> factor on its mass and inertia.
 
     """
 
@@ -75,6 +78,7 @@ class Scene:
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
     mjcf: str = ''
+    masses: dict[str, float] = field(default_factory=dict)
 
     @classmethod
     def load(cls, scene: 'str | Path | Scene') -> 'Scene':
@@ -136,6 +140,7 @@ class Scene:
         """
         load_plugins()
         spec = _read_model(self.model_path, self.mjcf)
+        scale_masses(spec, self.masses, self.model_path)
         if timestep is not None:
             if not (np.isfinite(timestep) and timestep > 0):
                 raise ConfigError(f'timestep {timestep} s: must be finite and above 0')

@@ -30,7 +30,7 @@ def plant_of(scene: str | Scene, vehicle: str) -> tuple[Plant, Vehicle]:
 
     """
     simulation = Simulation(scene)
-    chosen = choose_vehicle(simulation, vehicle)
+    chosen = _choose(simulation, vehicle)
     if chosen.dof_address < 0:
         raise ConfigError(f"vehicle '{chosen.name}': its base has no free joint")
     if not chosen.thrusters:
@@ -38,7 +38,7 @@ def plant_of(scene: str | Scene, vehicle: str) -> tuple[Plant, Vehicle]:
     return _measure(simulation, chosen), chosen
 
 
-def choose_vehicle(simulation: Simulation, vehicle: str) -> Vehicle:
+def _choose(simulation: Simulation, vehicle: str) -> Vehicle:
     """
     Return the named vehicle, or the only one with thrusters when the name is empty.
 

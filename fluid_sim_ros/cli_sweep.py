@@ -1,0 +1,79 @@
+"""``fluid_sim sweep``: many runs of one scene with different numbers."""
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.errors import MissingExtraError
+
+#: Shows a table, or writes a result as JSON: (path or None, table, result).
+Show = Callable[[str | None, Any, object], None]
+
+FAILED = 1
+
+
+def add_parser(commands: Any, show: Show, json_help: str) -> None:
+    """Add the subcommand to the parser of ``fluid_sim``."""
+    text = 'run a scene many times with different numbers, into a Parquet table'
+    parser: argparse.ArgumentParser = commands.add_parser('sweep', help=text, description=text)
+    parser.add_argument('file', metavar='FILE', type=Path, help='YAML file of the sweep')
+    parser.add_argument(
+        '--out', metavar='FOLDER', type=Path,
+        help='results; one that was begun goes on (default out/sweep/ and the name of FILE)',
+    )  # fmt: skip
+    parser.add_argument('--workers', type=int, metavar='N', help='default: one per core')
+    parser.add_argument(
+        '--ray', metavar='ADDRESS',
+        help='run on a Ray cluster; local: as processes of this machine',
+    )  # fmt: skip
+    parser.add_argument('--json', metavar='PATH', help=json_help)
+    parser.set_defaults(function=lambda arguments: _sweep(arguments, show))
+
+
+def _sweep(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    try:
+        from fluid_sim_ros.lab.sweep.conduct import conduct
+        from fluid_sim_ros.lab.sweep.sweep_file import read_sweep
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith('fluid_sim_ros'):
+            raise
+        raise MissingExtraError(
+            f'sweep needs {error.name}, which is not installed; fluid_sim doctor says what to type'
+        ) from None
+    sweep = read_sweep(arguments.file)
+    out = arguments.out or Path('out/sweep') / arguments.file.stem
+    columns = (TextColumn('runs'), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task('runs', total=None)
+        result = conduct(
+            sweep, out, workers=arguments.workers, ray_address=arguments.ray,
+            report=lambda done, total: progress.update(task, completed=done, total=total),
+        )  # fmt: skip
+    show(arguments.json, _table(result), result)
+    return FAILED if result['status'].get('failed') else 0
+
+
+def _table(result: dict[str, Any]) -> Any:
+    from rich.markup import escape
+    from rich.table import Table
+
+    ends = ', '.join(f'{count} {status}' for status, count in result['status'].items())
+    table = Table(
+        'column', 'min', 'median', 'max',
+        title=f'{escape(result["scene"])}: {result["runs"]} runs ({ends}) in '
+        f'{result["wall_s"]:.1f} s',
+        caption=escape(f'every row: {result["table"]}'),
+    )  # fmt: skip
+    for name, numbers in result['columns'].items():
+        table.add_row(name, *(f'{numbers[key]:.5g}' for key in ('min', 'median', 'max')))
+    return table

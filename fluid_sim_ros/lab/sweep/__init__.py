@@ -1,0 +1,6 @@
+"""
+Parameter sweeps and Monte Carlo: many short runs of one scene, with different numbers.
+
+``sweep_file`` reads what is varied and gives each run its numbers, ``flight`` runs one,
+``results`` keeps the rows, and ``conduct`` hands the runs to threads or to Ray.
+"""
