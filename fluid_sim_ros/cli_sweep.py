@@ -1,14 +1,10 @@
 """``fluid_sim sweep``: many runs of one scene with different numbers."""
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.errors import MissingExtraError
-
-#: Shows a table, or writes a result as JSON: (path or None, table, result).
-Show = Callable[[str | None, Any, object], None]
+from fluid_sim_ros.cli_shared import Show, needing_extra
 
 FAILED = 1
 
@@ -28,7 +24,7 @@ def add_parser(commands: Any, show: Show, json_help: str) -> None:
         help='run on a Ray cluster; local: as processes of this machine',
     )  # fmt: skip
     parser.add_argument('--json', metavar='PATH', help=json_help)
-    parser.set_defaults(function=lambda arguments: _sweep(arguments, show))
+    parser.set_defaults(function=lambda arguments: needing_extra(_sweep, arguments, show))
 
 
 def _sweep(arguments: argparse.Namespace, show: Show) -> int:
@@ -41,15 +37,9 @@ def _sweep(arguments: argparse.Namespace, show: Show) -> int:
         TimeRemainingColumn,
     )
 
-    try:
-        from fluid_sim_ros.lab.sweep.conduct import conduct
-        from fluid_sim_ros.lab.sweep.sweep_file import read_sweep
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith('fluid_sim_ros'):
-            raise
-        raise MissingExtraError(
-            f'sweep needs {error.name}, which is not installed; fluid_sim doctor says what to type'
-        ) from None
+    from fluid_sim_ros.lab.sweep.conduct import conduct
+    from fluid_sim_ros.lab.sweep.sweep_file import read_sweep
+
     sweep = read_sweep(arguments.file)
     out = arguments.out or Path('out/sweep') / arguments.file.stem
     columns = (TextColumn('runs'), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
