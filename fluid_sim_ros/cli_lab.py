@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli_shared import Show, needing_extra
+from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
     from fluid_sim_ros.lab.measure import Report
@@ -38,6 +39,29 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
         '--from', dest='saved', nargs='+', type=Path, metavar='JSON',
         help='draw results of an earlier chart again, without running',
     )  # fmt: skip
+    _add_stability(add('stability', 'map where integration is stable', _stability))
+
+
+def _add_stability(stability: argparse.ArgumentParser) -> None:
+    stability.add_argument(
+        'problem', metavar='PROBLEM', nargs='?', help='none: list problems and axes'
+    )
+    for axis in ('x', 'y'):
+        stability.add_argument(f'--{axis}', metavar='AXIS', default='', help='default: its own')
+        stability.add_argument(
+            f'--{axis}-range', nargs=2, type=float, metavar=('LOW', 'HIGH'), default=()
+        )
+    stability.add_argument('--cells', type=int, default=24, help='per axis (default 24)')
+    stability.add_argument('--integrators', nargs='+', metavar='NAME', help='default: all five')
+    stability.add_argument(
+        '--set', nargs='+', metavar='AXIS=VALUE', default=[], dest='fixed',
+        help='parameters that stay the same over the map',
+    )  # fmt: skip
+    stability.add_argument(
+        '--bisect', action='store_true', help='also find the largest stable timestep at each y'
+    )
+    stability.add_argument('--restart', action='store_true', help='forget an interrupted run')
+    stability.add_argument('--out', metavar='FOLDER', type=Path, default=Path('out/stability'))
 
 
 @contextmanager
@@ -110,6 +134,73 @@ def _measured(arguments: argparse.Namespace) -> list[dict[str, Any]]:
             )
             for each in problems
         ]
+
+
+def _stability(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.lab import results, stability
+    from fluid_sim_ros.lab.fates import FATES
+    from fluid_sim_ros.lab.problem import INTEGRATORS
+    from fluid_sim_ros.lab.stability_chart import draw_map
+
+    if not arguments.problem:
+        return _list_stability(arguments, show)
+    head = stability.plan(
+        arguments.problem, x=arguments.x, y=arguments.y, x_range=arguments.x_range,
+        y_range=arguments.y_range, cells=arguments.cells,
+        integrators=arguments.integrators or INTEGRATORS, fixed=_settings(arguments.fixed),
+    )  # fmt: skip
+    stem = arguments.out / f'{head["problem"]}_{head["x"]}_{head["y"]}'
+    with progress() as report:
+        result = stability.run_map(
+            head, stem.with_suffix('.jsonl'), restart=arguments.restart, report=report
+        )
+        if arguments.bisect:
+            result['largest_steps'] = stability.largest_steps(head, report)
+    result['files'] = [str(stem.with_suffix(suffix)) for suffix in ('.jsonl', '.json', '.png')]
+    draw_map(result, stem.with_suffix('.png'))
+    results.save(result, stem.with_suffix('.json'))
+    table = Table('integrator', *FATES, title=f'{head["problem"]}: cells by fate')
+    for integrator in head['integrators']:
+        words = [row['fate'] for row in result['map'] if row['integrator'] == integrator]
+        table.add_row(integrator, *(str(words.count(word)) for word in FATES))
+    show(arguments.json, Group(table, escape('\n'.join(result['files']))), result)
+    return 0
+
+
+def _settings(pairs: list[str]) -> dict[str, float]:
+    """Return AXIS=VALUE pairs as numbers."""
+    out = {}
+    for pair in pairs:
+        name, _, value = pair.partition('=')
+        try:
+            out[name] = float(value)
+        except ValueError:
+            raise ConfigError(f"--set '{pair}': must be AXIS=NUMBER") from None
+    return out
+
+
+def _list_stability(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.console import Group
+    from rich.table import Table
+
+    from fluid_sim_ros.lab.bodies import AXES, FAMILIES
+
+    problems = Table('problem', 'what coasts', 'x', 'y', title='Stability problems')
+    for name, kind in FAMILIES.items():
+        problems.add_row(name, kind.title, kind.x, kind.y)
+    axes = Table('axis', 'meaning', 'range', title='Axes')
+    for name, axis in AXES.items():
+        axes.add_row(name, axis.label.replace('[', r'\['), f'{axis.low:g} to {axis.high:g}')
+    result = {
+        'problems': {name: kind.title for name, kind in FAMILIES.items()},
+        'axes': {name: axis.label for name, axis in AXES.items()},
+    }
+    show(arguments.json, Group(problems, axes), result)
+    return 0
 
 
 def _list_problems(arguments: argparse.Namespace, show: Show) -> int:

@@ -1,0 +1,217 @@
+"""Stability maps over two parameters, kept point by point so that a run can go on."""
+
+import itertools
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.bodies import AXES, Body, Family, family
+from fluid_sim_ros.lab.boundaries import critical
+from fluid_sim_ros.lab.fates import fate, one_step
+from fluid_sim_ros.lab.measure import Report, conditions
+from fluid_sim_ros.lab.problem import INTEGRATORS
+
+#: Bisection ends when the timestep is known to this factor.
+_PRECISION = 1.05
+Key = tuple[str, float, float]
+
+
+def plan(
+    name: str,
+    *,
+    x: str = '',
+    y: str = '',
+    x_range: Sequence[float] = (),
+    y_range: Sequence[float] = (),
+    cells: int = 24,
+    integrators: Sequence[str] = INTEGRATORS,
+    fixed: Mapping[str, float] | None = None,
+) -> dict[str, Any]:
+    """
+    Return what a map runs over, ready for JSON: the head of its file.
+
+    Raises
+    ------
+    ConfigError
+        For an unknown problem, axis or integrator, or a range that is not rising.
+
+    """
+    kind = family(name)
+    axes = {'x': x or kind.x, 'y': y or kind.y}
+    ranges = {}
+    for key, given in (('x', x_range), ('y', y_range)):
+        axis = axes[key]
+        if axis not in AXES:
+            raise ConfigError(f"axis '{axis}' is not known; allowed: {listed(AXES)}")
+        low, high = given or (AXES[axis].low, AXES[axis].high)
+        if not 0 < low < high:
+            raise ConfigError(f'range of {axis}: {low:g} {high:g}; allowed: 0 < low < high')
+        ranges[key] = [float(low), float(high)]
+    if axes['x'] == axes['y']:
+        raise ConfigError(f"both axes are '{axes['x']}'; give two different ones")
+    unknown = [each for each in integrators if each not in INTEGRATORS]
+    if unknown:
+        raise ConfigError(
+            f"integrator '{unknown[0]}' is not known; allowed: {listed(INTEGRATORS)}"
+        )
+    kind.body.with_values(fixed or {})
+    return {
+        'problem': name, **axes, 'x_range': ranges['x'], 'y_range': ranges['y'], 'cells': cells,
+        'integrators': list(integrators), 'fixed': dict(fixed or {}),
+    }  # fmt: skip
+
+
+def values(head: Mapping[str, Any], axis: str) -> list[float]:
+    """Return the values of an axis of a map, ``x`` or ``y``: middles of its cells."""
+    low, high = np.log(head[f'{axis}_range'])
+    middles = (np.arange(head['cells']) + 0.5) / head['cells']
+    return [float(f'{value:.9g}') for value in np.exp(low + (high - low) * middles)]
+
+
+def run_map(
+    head: Mapping[str, Any],
+    path: Path,
+    *,
+    restart: bool = False,
+    report: Report = lambda what, done, total: None,
+) -> dict[str, Any]:
+    """
+    Run the cells of a map that its file does not have yet; return the whole map.
+
+    The file has the head in its first line and one line per cell, written as the cell is done.
+
+    Raises
+    ------
+    ConfigError
+        If the file is that of another map.
+
+    """
+    cells = {} if restart else _kept(head, path)
+    todo = [
+        key
+        for key in itertools.product(head['integrators'], values(head, 'x'), values(head, 'y'))
+        if key not in cells
+    ]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    # anew, in one move: a line that was cut off must not swallow the next one
+    begun = path.with_suffix('.begun')
+    lines = [dict(head), *(_row(key, cells[key]) for key in cells)]
+    begun.write_text(''.join(json.dumps(line) + '\n' for line in lines), encoding='utf-8')
+    begun.replace(path)
+    total = len(todo) + len(cells)
+    with path.open('a', encoding='utf-8') as file:
+        for key in todo:
+            report(f'{head["problem"]}: map', len(cells), total)
+            cells[key] = _cell(head, *key)
+            file.write(json.dumps(_row(key, cells[key])) + '\n')
+            file.flush()
+    rows = [_row(key, cells[key]) for key in sorted(cells)]
+    return {**head, 'map': rows, 'conditions': conditions()}
+
+
+def _row(key: Key, cell: Mapping[str, Any]) -> dict[str, Any]:
+    return {'integrator': key[0], 'x': key[1], 'y': key[2], **cell}
+
+
+def _kept(head: Mapping[str, Any], path: Path) -> dict[Key, dict[str, Any]]:
+    """Return the cells of an earlier run; a last line that was cut off does not count."""
+    if not path.exists():
+        return {}
+    first, *lines = path.read_text(encoding='utf-8').splitlines() or ['']
+    try:
+        same = json.loads(first) == dict(head)
+    except json.JSONDecodeError:
+        same = False
+    if not same:
+        raise ConfigError(f'{path}: is of another map; name another folder, or use --restart')
+    cells = {}
+    for line in lines:
+        try:
+            row = json.loads(line)
+        except json.JSONDecodeError:
+            break
+        cells[row.pop('integrator'), row.pop('x'), row.pop('y')] = row
+    return cells
+
+
+def _cell(head: Mapping[str, Any], integrator: str, x: float, y: float) -> dict[str, Any]:
+    given = {**head['fixed'], head['x']: x, head['y']: y}
+    found = fate(_body(head, given), integrator, given.get('timestep', 0.01))
+    return {
+        'fate': found.word, 'largest': min(found.largest, 1e300), 'last': min(found.last, 1e300),
+        'reset_at_s': found.reset_at, 'alarm': found.alarm,
+    }  # fmt: skip
+
+
+def _body(head: Mapping[str, Any], given: Mapping[str, float]) -> Body:
+    return family(head['problem']).body.with_values(given)
+
+
+def bisect(
+    accepts: Callable[[float], bool], low: float, high: float, precision: float = _PRECISION
+) -> float | None:
+    """
+    Return the timestep up to which all are accepted, to a factor ``precision``.
+
+    None where ``low`` is refused already; ``high`` where nothing is refused. Steps are doubled
+    up to the first that is refused, then halved in between.
+    """
+    if not accepts(low):
+        return None
+    while accepts(min(2 * low, high)):
+        if 2 * low >= high:
+            return high
+        low *= 2
+    high = min(2 * low, high)
+    while high / low > precision:
+        middle = float(np.sqrt(low * high))
+        low, high = (middle, high) if accepts(middle) else (low, middle)
+    return float(np.sqrt(low * high))
+
+
+def largest_steps(
+    head: Mapping[str, Any], report: Report = lambda what, done, total: None
+) -> list[dict[str, Any]]:
+    """Return the largest stable timestep at each value of y, where x is the timestep."""
+    low, high = head['x_range']
+    keys = list(itertools.product(head['integrators'], values(head, 'y')))
+    rows = []
+    for done, (integrator, y) in enumerate(keys):
+        report(f'{head["problem"]}: bisection', done, len(keys))
+        body = _body(head, {**head['fixed'], head['y']: y})
+
+        def stable(h: float, body: Body = body, kind: str = integrator) -> bool:
+            return fate(body, kind, h).word == 'stable'
+
+        rows.append({'integrator': integrator, 'y': y, 'largest_s': bisect(stable, low, high)})
+    report(f'{head["problem"]}: bisection', len(keys), len(keys))
+    return rows
+
+
+def measured_numbers(kind: Family, integrator: str) -> dict[str, dict[str, float]]:
+    """
+    Return the drag number of each boundary, predicted and measured by bisection of one step.
+
+    Over three densities, so that the mass (and the added mass) is seen to be the right one.
+    """
+    out = {}
+    for name, number in critical(integrator, kind.drag).items():
+        found = []
+        for ratio in (0.01, 0.1, 1.0):
+            body = kind.body.with_values({'density_ratio': ratio})
+
+            def accepts(x: float, body: Body = body, name: str = name) -> bool:
+                gain = one_step(body, integrator, x / body.drag_number(1.0))
+                return gain > 0 if name == 'sign flip' else abs(gain) < 1
+
+            bound = bisect(accepts, number / 3, number * 3, 1.0001)
+            found.append(float('nan') if bound is None else bound)
+        out[name] = {
+            'predicted': number, 'measured': found[0],
+            'worst': max(abs(x / number - 1) for x in found),
+        }  # fmt: skip
+    return out
