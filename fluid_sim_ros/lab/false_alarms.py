@@ -3,6 +3,7 @@
 import numpy as np
 
 from fluid_sim_ros.lab.bodies import RADIUS, Body
+from fluid_sim_ros.lab.problem import INTEGRATORS
 
 #: Share of the explicit stability limit, and of a radian, that a step may take.
 _SMALL = 0.02
@@ -26,9 +27,7 @@ def random_run(rng: np.random.Generator) -> tuple[Body, str, float]:
         tumbling=tumbling,
         duration=0.3,
     )
-    integrators = (
-        ('RK4',) if tumbling else ('Euler', 'RK4', 'implicit', 'implicitfast', 'discrete')
-    )
+    integrators = ('RK4',) if tumbling else INTEGRATORS
     limit = 2.0 / body.drag_number(1.0) if body.blunt else np.inf
     turn = 1.0 / (body.spin + body.speed / RADIUS) if tumbling else np.inf
     step = _SMALL * min(limit, turn, 0.1)
