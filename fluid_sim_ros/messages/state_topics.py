@@ -1,8 +1,6 @@
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
-import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -11,8 +9,11 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
+from fluid_sim_ros.messages.sensor_topics import sensor_topics
+from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.runner import period_steps
+from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.vehicle import Vehicle
 
@@ -35,41 +36,6 @@ DEFAULTS: dict[str, Any] = {
 }
 
 
-@dataclass
-class StateTopic:
-    """
-    One state topic: its template and which bytes go where.
-
-    Attributes
-    ----------
-    name
-        Relative name, or absolute with a leading slash.
-    type
-        Message type, ``package/msg/Name``.
-    period
-        Steps between two messages.
-    needs_forces
-        Its numbers need ``observe(forces=True)``.
-
-    """
-
-    name: str
-    type: str
-    template: templates.Template
-    period: int
-    copies: list[tuple[memoryview, memoryview]]
-    needs_forces: bool = False
-    prepare: Callable[[], None] | None = None
-
-    def data(self) -> bytes:
-        """Return the message with the numbers that were observed last; see ``StateTopics``."""
-        if self.prepare is not None:
-            self.prepare()
-        for target, source in self.copies:
-            target[:] = source
-        return self.template.bytes()
-
-
 class StateTopics:
     """
     Every state topic of a simulation.
@@ -79,13 +45,11 @@ class StateTopics:
     topics
         In the order in which they are published: those that need no forces come first, so that
         a controller can answer the state while the forces are evaluated.
-    period
-        Greatest common divisor of the topics' periods [steps].
 
     Raises
     ------
     ConfigError
-        If a rate does not divide the step rate.
+        If a rate does not divide the step rate, or a sensor does not fit the model.
 
     """
 
@@ -96,12 +60,17 @@ class StateTopics:
         self._forces_known = False
         rows = simulation.observe(forces=True)
         self.topics: list[StateTopic] = []
+        self._suites = {name: SensorSuite(simulation, name) for name in simulation.vehicles}
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
         self._add_transforms(list(simulation.vehicles), rows)
         self._add('/clock', CLOCK, templates.clock(), 'clock.rate', [])
         self.topics.sort(key=lambda topic: topic.needs_forces)
-        self.period = math.gcd(*(topic.period for topic in self.topics))
+
+    def restart(self) -> None:
+        """Forget every sensor's readings: the simulation was reset."""
+        for suite in self._suites.values():
+            suite.reset()
 
     def look(self) -> None:
         """Take the present state as the one that ``data`` speaks of."""
@@ -113,8 +82,8 @@ class StateTopics:
         """
         Return a topic's message at the state of the last ``look``.
 
-        Forces are evaluated for the first topic that needs them: what was asked for before can be
-        on its way already.
+        Nothing where a sensor has no new reading. Forces are evaluated for the first topic that
+        needs them: what was asked for before can be on its way already.
         """
         if topic.needs_forces and not self._forces_known:
             self._simulation.observe(forces=True)
@@ -148,22 +117,31 @@ class StateTopics:
             copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
             self._add(f'{name}/medium/{stream}', TWIST, template, 'medium.rate', copies)
         self._add_joint_states(vehicle)
+        self.topics += sensor_topics(self._simulation, self._suites[name], name)
 
     def _add_transforms(self, vehicles: Sequence[str], rows: Array) -> None:
-        """Place each vehicle in the map by way of its odometry frame, which is the map's."""
+        """Place each vehicle in the map by way of its odometry frame, and its sensors on it."""
         parents: dict[str, str] = {}
         for name in vehicles:
             parents |= {f'{name}/odom': 'map', f'{name}/base_link': f'{name}/odom'}
+            parents |= {s.frame: f'{name}/base_link' for s in self._suites[name].sensors}
         template = templates.transforms(parents)
-        identity = templates.as_bytes(np.array([1.0]))
+        pairs = zip(template.blocks[::2], template.blocks[1::2], strict=True)
+        blocks = dict(zip(parents, pairs, strict=True))
         copies = []
-        for index in range(len(vehicles)):
-            _, same, position, orientation = template.blocks[4 * index : 4 * index + 4]
-            same[24:] = identity
+        for name, row in zip(vehicles, rows, strict=True):
+            _, same = blocks[f'{name}/odom']
+            same[24:] = templates.as_bytes(np.array([1.0]))
+            position, orientation = blocks[f'{name}/base_link']
             copies += [
-                (position, templates.as_bytes(rows[index][nat.POSITION])),
-                *_orientation(orientation, rows[index][nat.QUATERNION]),
+                (position, templates.as_bytes(row[nat.POSITION])),
+                *_orientation(orientation, row[nat.QUATERNION]),
             ]
+            for sensor in self._suites[name].sensors:
+                place, turn = blocks[sensor.frame]
+                place[:] = templates.as_bytes(sensor.mount.position_b)
+                for target, source in _orientation(turn, sensor.frame_quat_bs):
+                    target[:] = source
         self._add('/tf', TRANSFORMS, template, 'tf.rate', copies)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:

@@ -24,8 +24,8 @@ class Template:
     """
     The bytes of one message, built member by member; a stamp stands first unless told otherwise.
 
-    ``stamps`` and ``blocks`` are views of its stamps and of its runs of doubles that change, in
-    the order of the ``stamp`` and ``doubles`` calls; they exist after ``finish``.
+    ``stamps`` and ``blocks`` are views of its stamps and of its runs of numbers that change, in
+    the order of the ``stamp``, ``doubles`` and ``floats`` calls; they exist after ``finish``.
     """
 
     def __init__(self, stamped: bool = True) -> None:
@@ -56,6 +56,13 @@ class Template:
         self._buffer += struct.pack('<I', value)
         return self
 
+    def number(self, code: str, value: float) -> 'Template':
+        """Append a number that stays, of a type of ``struct``."""
+        size = struct.calcsize(code)
+        self._align(size)
+        self._buffer += struct.pack('<' + code, value)
+        return self
+
     def string(self, value: str) -> 'Template':
         """Append a string."""
         text = value.encode() + b'\x00'
@@ -65,9 +72,16 @@ class Template:
 
     def doubles(self, count: int) -> 'Template':
         """Append doubles that change: a block."""
-        self._align(8)
-        self._places.append((len(self._buffer), 8 * count))
-        self._buffer += bytes(8 * count)
+        return self._block(8, count)
+
+    def floats(self, count: int) -> 'Template':
+        """Append single-precision numbers that change: a block."""
+        return self._block(4, count)
+
+    def _block(self, size: int, count: int) -> 'Template':
+        self._align(size)
+        self._places.append((len(self._buffer), size * count))
+        self._buffer += bytes(size * count)
         return self
 
     def constants(self, values: Sequence[float]) -> 'Template':
@@ -100,7 +114,7 @@ class StampBytes:
         _STAMP.pack_into(self._buffer, 0, *divmod(time_ns, 1_000_000_000))
 
 
-def as_bytes(numbers: Array) -> memoryview:
+def as_bytes(numbers: Array | NDArray[np.float32]) -> memoryview:
     """Return a view of a contiguous array's bytes that follows the array's values."""
     return memoryview(numbers.reshape(-1)).cast('B')  # type: ignore[arg-type]
 

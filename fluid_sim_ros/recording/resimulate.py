@@ -1,6 +1,7 @@
 """Flies a log again: its commands into a fresh simulation, its states compared with the new."""
 
 import json
+import math
 import platform
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -10,12 +11,13 @@ from typing import Any
 
 import mujoco
 
-from fluid_sim_ros.environment import exact
+from fluid_sim_ros.environment import NEVER, exact
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, listed
 from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.commands import Commands
-from fluid_sim_ros.messages.state_topics import StateTopic, StateTopics
+from fluid_sim_ros.messages.state_topics import StateTopics
+from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.recorder_tap import EVENTS
 from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.description import RunDescription
@@ -173,6 +175,9 @@ class _Flight:
         names: dict[str, str] = run['topics']
         self._commands = {full: commands[key] for full, key in names.items() if key in commands}
         self.states = {full: by_key[key] for full, key in names.items() if key in by_key}
+        self._late = [topic for topic in self.states.values() if topic.appears_later]
+        self._look_every = math.gcd(*(topic.period for topic in self._late)) or NEVER
+        self._look_ahead()
         self._events = {full for full, key in names.items() if key == EVENTS}
         self._recorded_step = exact(run['timestep'])
         self._step = exact(simulation.timestep)
@@ -207,7 +212,20 @@ class _Flight:
         if self._step != self._recorded_step:
             # the boundary at or after the recorded one
             step = -int(-(message.step * self._recorded_step) // self._step)
-        self.simulation.step(step - self.simulation.step_count)
+        simulation = self.simulation
+        while (now := simulation.step_count) < step:
+            simulation.step(min(step - now, self._look_every - now % self._look_every))
+            self._look_ahead()
+
+    def _look_ahead(self) -> None:
+        """Measure what will stand in a later message."""
+        step = self.simulation.step_count
+        if step % self._look_every:
+            return
+        self._topics.look()
+        for topic in self._late:
+            if step % topic.period == 0:
+                self._topics.data(topic)
 
     def _apply(self, event: dict[str, Any]) -> None:
         simulation = self.simulation
@@ -248,7 +266,7 @@ class _Comparer:
         """Compare one recorded state with the new one."""
         result = self._result
         data = self._flight.state(message, self._flight.states[message.topic])
-        if message.topic in self._kept:
+        if data and message.topic in self._kept:
             pairs = result.pairs.setdefault(message.topic, [])
             pairs.append((message.log_ns, message.data, data))
         if self._flight.changed:
@@ -260,7 +278,8 @@ class _Comparer:
     def _differ(self, message: LogMessage, data: bytes) -> None:
         result = self._result
         definition = self._definitions[message.topic]
-        recorded, simulated = fields(definition, message.data), fields(definition, data)
+        recorded = fields(definition, message.data)
+        simulated = fields(definition, data) if data else {}  # a reading that does not come
         largest = 0.0
         for name in recorded | simulated:
             old, new = recorded.get(name), simulated.get(name)

@@ -1,5 +1,6 @@
 """Records a simulation that runs without ROS: the same messages, byte for byte, as the node's."""
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -43,21 +44,22 @@ class RecordingSink:
         wanted = [topic for topic in self._states.topics if topic.name in names]
         commands = Commands(simulation, known).topics
         channels = [
-            RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, depth=depth)
-            for group, depth in ((wanted, 10), (commands, 1))
-            for t in group
+            RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, t.reliable, t.depth)
+            for t in wanted
         ]
+        channels += [RecordedTopic(f'/{t.name}', t.type, t.name, depth=1) for t in commands]
         self.recorder = Recorder(simulation, channels, RecorderOptions(path, known))
         self._topics = list(enumerate(wanted))
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
-        self.period = self._states.period
+        self.period = math.gcd(*(topic.period for topic in wanted))
 
     def write(self, simulation: Simulation) -> None:
         """Record what is due at this step."""
         tick = simulation.tick
         due = [(i, topic) for i, topic in self._topics if tick % topic.period == 0]
         self._states.look()
-        self.recorder.tick([(i, self._states.data(topic)) for i, topic in due])
+        messages = [(i, self._states.data(topic)) for i, topic in due]
+        self.recorder.tick([message for message in messages if message[1]])
 
     def command(self, name: str, data: bytes) -> None:
         """Record a command message before it is applied, by its relative topic name."""

@@ -6,22 +6,32 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
-from geometry_msgs.msg import TwistStamped, WrenchStamped
+from geometry_msgs.msg import TwistStamped, TwistWithCovarianceStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import (
+    FluidPressure,
+    Imu,
+    JointState,
+    MagneticField,
+    NavSatFix,
+    Range,
+)
 
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
-from fluid_sim_ros.messages.state_topics import (
-    CLOCK,
-    ODOMETRY,
-    TRANSFORMS,
-    StateTopic,
-    StateTopics,
+from fluid_sim_ros.messages.sensor_topics import (
+    FLUID_PRESSURE,
+    IMU,
+    MAGNETIC_FIELD,
+    NAV_SAT_FIX,
+    RANGE,
+    VELOCITY,
 )
+from fluid_sim_ros.messages.state_topics import CLOCK, ODOMETRY, TRANSFORMS, StateTopics
+from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.inputs import REFRESH_PERIOD
 from fluid_sim_ros.simulation import Simulation
@@ -30,7 +40,8 @@ _STATE_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 _CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
 _MESSAGES: dict[str, type] = {
     ODOMETRY: Odometry, WRENCH: WrenchStamped, TWIST: TwistStamped, JOINT_STATE: JointState,
-    CLOCK: Clock,
+    CLOCK: Clock, IMU: Imu, MAGNETIC_FIELD: MagneticField, FLUID_PRESSURE: FluidPressure,
+    NAV_SAT_FIX: NavSatFix, RANGE: Range, VELOCITY: TwistWithCovarianceStamped,
 }  # fmt: skip
 # an optional part of ROS: without it the transforms can be recorded, but not published
 if importlib.util.find_spec('tf2_msgs') is not None:
@@ -63,8 +74,9 @@ class Outputs:
     """
     Every state topic of a node, as one sink for the runner.
 
-    Its period is the greatest common divisor of the topics' periods; wrenches and accelerations
-    are evaluated only at steps where a subscribed or recorded topic needs them.
+    Its period is the greatest common divisor of the periods of the topics that are wanted now
+    and of the clock; wrenches and accelerations are evaluated, and sensors sampled, only at steps
+    where a subscribed or recorded topic needs them.
     """
 
     def __init__(self, node: Node, simulation: Simulation, settings: dict[str, Any]) -> None:
@@ -74,19 +86,26 @@ class Outputs:
             Topic(state, self._publisher(state), node.resolve_topic_name(state.name))
             for state in self._states.topics
         ]
-        self.period = self._states.period
         self.tap: Tap | None = None
+        self._clock = next(topic for topic in self.topics if topic.state.type == CLOCK)
         self._active: list[Topic] = []
         self._refreshed_at = -math.inf
+        self.refresh()
 
     def _publisher(self, state: StateTopic) -> Any:
         if state.type not in _MESSAGES:
             return None
         return self._node.create_publisher(
             _MESSAGES[state.type], state.name,
-            _CLOCK_QOS if state.type == CLOCK else _STATE_QOS,
+            self._quality(state),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )  # fmt: skip
+
+    @staticmethod
+    def _quality(state: StateTopic) -> QoSProfile:
+        if state.type == CLOCK:
+            return _CLOCK_QOS
+        return _STATE_QOS if state.reliable else qos_profile_sensor_data
 
     def destroy(self) -> None:
         """Remove the publishers from the node."""
@@ -121,6 +140,11 @@ class Outputs:
             publisher = topic.publisher
             topic.subscribed = publisher is not None and publisher.get_subscription_count() > 0
         self._active = [t for t in self.topics if t.subscribed or t.record >= 0]
+        self.period = math.gcd(self._clock.period, *(topic.period for topic in self._active))
+
+    def restart(self) -> None:
+        """Forget what belongs to the time before a reset."""
+        self._states.restart()
 
     def _publish(self, topics: list[Topic]) -> list[tuple[int, bytes]]:
         """Publish the present numbers; return the messages to record."""
@@ -128,6 +152,8 @@ class Outputs:
         recorded = []
         for topic in topics:
             data = self._states.data(topic.state)
+            if not data:
+                continue
             if topic.subscribed:
                 topic.publisher.handle.publish_raw(data)
                 topic.published += 1

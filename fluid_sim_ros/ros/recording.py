@@ -48,9 +48,10 @@ def start_recording(
     for output in outputs.topics:
         if output.name in wanted:
             output.record = len(recorded)
-            depth = 1 if output.name == '/clock' else 10
+            state = output.state
+            depth = 1 if output.name == '/clock' else state.depth
             recorded.append(
-                RecordedTopic(output.full, output.state.type, output.name, depth=depth)
+                RecordedTopic(output.full, state.type, output.name, state.reliable, depth)
             )
     for entry in inputs.inputs:
         entry.record = len(recorded)

@@ -174,6 +174,7 @@ class Session:
         self.simulation.enable_wind(self._settings['enable_wind'])
         self.diverged = ''
         self.inputs.forget()
+        self.outputs.restart()
         if self.tap is not None:
             self.tap.next_segment()
         self.runner.restart()

@@ -28,6 +28,7 @@ class Airspeed(Sensor):
 
     """
 
+    config: AirspeedFile
     differential_pressure = airspeed = 0.0
 
     def __init__(self, carrier: Carrier, config: AirspeedFile) -> None:

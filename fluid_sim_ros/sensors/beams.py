@@ -14,6 +14,8 @@ from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 _OWN_PARTS = 64
 #: How far a ray goes on behind an own part [m].
 _STEP = 1e-6
+#: A range's frame has its x along the ray; this turn takes x to z.
+_X_TO_Z = np.array([math.sqrt(0.5), 0.0, -math.sqrt(0.5), 0.0])
 
 
 class _Looking(Sensor):
@@ -59,6 +61,7 @@ class Rangefinder(_Looking):
 
     """
 
+    config: RangefinderFile
     infinite_beyond = True
     distance = math.inf
 
@@ -69,6 +72,8 @@ class Rangefinder(_Looking):
         if not length > 0:
             raise ConfigError(f'{self.where}: direction {config.direction}: must not be zero')
         self._direction_b = self.mount.to_base(direction / length)
+        mujoco.mju_quatZ2Vec(self.frame_quat_bs, self._direction_b)
+        mujoco.mju_mulQuat(self.frame_quat_bs, self.frame_quat_bs.copy(), _X_TO_Z)
 
     def _measure(self, values: Array) -> bool:
         values[0] = self._distance(self._position_w(), self._direction_b @ self._rotation_bw())
@@ -94,6 +99,7 @@ class Dvl(_Looking):
 
     """
 
+    config: DvlFile
     altitude = 0.0
 
     def __init__(self, carrier: Carrier, config: DvlFile) -> None:

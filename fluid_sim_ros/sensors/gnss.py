@@ -1,5 +1,7 @@
 """The receiver of a satellite navigation system."""
 
+import numpy as np
+
 from fluid_sim_ros.sensor_schema import GnssFile
 from fluid_sim_ros.sensors.fluids import Fluids
 from fluid_sim_ros.sensors.geodesy import LocalFrame
@@ -16,15 +18,19 @@ class Gnss(Sensor):
         East, north, up: [m] from home, and [m/s], shape (3,) each.
     latitude, longitude, altitude
         WGS 84 [deg], [deg], [m]; the altitude in the datum of the home's.
+    geodetic
+        The same three, shape (3,).
 
     """
 
+    config: GnssFile
     latitude = longitude = altitude = 0.0
 
     def __init__(self, carrier: Carrier, config: GnssFile) -> None:
         channels = ((config.horizontal, 2), (config.vertical, 1), (config.velocity, 3))
         super().__init__(carrier, config, channels)
         self.position_w, self.velocity_w = self.values[:3], self.values[3:]
+        self.geodetic = np.zeros(3)
         self._surface = Fluids.of(carrier.simulation).surface
         self._frame = LocalFrame(carrier.simulation.scene.home)
 
@@ -34,6 +40,5 @@ class Gnss(Sensor):
         return bool(values[2] >= self._surface)
 
     def _convert(self) -> None:
-        self.latitude, self.longitude, self.altitude = self._frame.geodetic(
-            *self.position_w.tolist()
-        )
+        place = self._frame.geodetic(*self.position_w.tolist())
+        self.geodetic[:] = self.latitude, self.longitude, self.altitude = place

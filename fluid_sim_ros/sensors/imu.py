@@ -29,6 +29,7 @@ class Imu(Sensor):
 
     """
 
+    config: ImuFile
     needs_forces = True
 
     def __init__(self, carrier: Carrier, config: ImuFile) -> None:

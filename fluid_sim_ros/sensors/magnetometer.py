@@ -47,6 +47,8 @@ class Magnetometer(Sensor):
 
     """
 
+    config: MagnetometerFile
+
     def __init__(self, carrier: Carrier, config: MagnetometerFile) -> None:
         super().__init__(carrier, config, ((config.field, 3),), _DITHER)
         self.field = self.values

@@ -24,6 +24,8 @@ class _Static(Sensor):
     The dynamic pressure of the flow past the vehicle is left out.
     """
 
+    config: BarometerFile | PressureFile
+
     def __init__(self, carrier: Carrier, config: BarometerFile | PressureFile) -> None:
         super().__init__(carrier, config, ((config.pressure, 1),), _DITHER)
         self._fluids = Fluids.of(carrier.simulation)

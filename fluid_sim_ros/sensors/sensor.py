@@ -61,11 +61,14 @@ class Mount:
         Place in base_link [m], shape (3,).
     rotation_sb
         Turns vectors of base_link into the sensor's axes, shape (3, 3); None: the same axes.
+    quat_bs_wxyz
+        The opposite turn, from the sensor's axes to base_link, shape (4,).
 
     """
 
     position_b: Array
     rotation_sb: Array | None
+    quat_bs_wxyz: Array
 
     @classmethod
     def of_site(cls, carrier: Carrier, site: str | None, where: str) -> 'Mount':
@@ -79,7 +82,7 @@ class Mount:
 
         """
         if site is None:
-            return cls(np.zeros(3), None)
+            return cls(np.zeros(3), None, np.array([1.0, 0.0, 0.0, 0.0]))
         model, body = carrier.simulation.model, carrier.vehicle.body_id
         identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site)
         if identity < 0 or model.site_bodyid[identity] != body:
@@ -90,7 +93,10 @@ class Mount:
         mujoco.mju_quat2Mat(rotation, model.site_quat[identity])
         rotation_bs = rotation.reshape(3, 3)
         turned = not np.array_equal(rotation_bs, np.eye(3))
-        return cls(model.site_pos[identity].copy(), rotation_bs.T.copy() if turned else None)
+        return cls(
+            model.site_pos[identity].copy(), rotation_bs.T.copy() if turned else None,
+            model.site_quat[identity].copy(),
+        )  # fmt: skip
 
     def to_sensor(self, vectors_b: Array) -> Array:
         """Return vectors of base_link, shape (..., 3), in the sensor's axes."""
@@ -137,6 +143,8 @@ class Sensor(ABC):
         Scene, vehicle and sensor, as errors begin.
     config, mount
         As above, and where it sits.
+    frame, frame_quat_bs
+        Name of its coordinate frame, and the turn from that frame to base_link, scalar first.
     period, latency
         Steps between two readings, and from what is measured to its reading.
     fresh
@@ -172,6 +180,8 @@ class Sensor(ABC):
         self.where = where
         self.config = config
         self.mount = Mount.of_site(carrier, config.site, where)
+        self.frame = f'{vehicle.name}/{config.kind}'
+        self.frame_quat_bs = self.mount.quat_bs_wxyz.copy()
         self.period = period_steps(config.rate, simulation.timestep, where)
         self.latency = whole_steps(config.latency, simulation.timestep, f'{where}: latency')
         self._simulation, self._state = simulation, carrier.state
@@ -208,6 +218,8 @@ class Sensor(ABC):
             return
         if step < self._step:
             self.reset()
+        elif step > self._step + self.period:  # nobody asked for some time
+            self._pending.clear()
         self._step = step
         self.fresh = False
         if step % self.period == 0:

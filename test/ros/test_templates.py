@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import TwistStamped, WrenchStamped
+from geometry_msgs.msg import TwistStamped, TwistWithCovarianceStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_typestore
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import FluidPressure, Imu, JointState, MagneticField, NavSatFix, Range
 from std_msgs.msg import Float64MultiArray
 
-from fluid_sim_ros.messages import templates
+from fluid_sim_ros.messages import sensor_templates, templates
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import TRANSFORMS
 
@@ -132,3 +132,63 @@ def test_multi_array(count):
     row = np.random.default_rng(count).normal(size=count)
     template = fill(templates.multi_array(count), *([row] if count else []))
     assert_same(template, Float64MultiArray(data=row.tolist()))
+
+
+def test_imu():
+    numbers = np.random.default_rng(2).normal(size=(2, 3))
+    message = stamped(Imu())
+    message.header.frame_id = 'x500/imu'
+    message.orientation_covariance[0] = -1.0
+    w, f = message.angular_velocity, message.linear_acceleration
+    w.x, w.y, w.z = numbers[0]
+    f.x, f.y, f.z = numbers[1]
+    message.angular_velocity_covariance = (2.0 * np.eye(3)).ravel()
+    message.linear_acceleration_covariance = (3.0 * np.eye(3)).ravel()
+    assert_same(fill(sensor_templates.imu('x500/imu', 2.0, 3.0), *numbers), message)
+
+
+def test_magnetic_field():
+    message = stamped(MagneticField())
+    message.header.frame_id = 'm'
+    field = message.magnetic_field
+    field.x, field.y, field.z = 1e-5, 2e-5, -4e-5
+    message.magnetic_field_covariance = (1e-14 * np.eye(3)).ravel()
+    assert_same(fill(sensor_templates.magnetic_field('m', 1e-14), [1e-5, 2e-5, -4e-5]), message)
+
+
+def test_fluid_pressure():
+    message = stamped(FluidPressure(fluid_pressure=101325.0, variance=2.5))
+    message.header.frame_id = 'x500/barometer'
+    assert_same(fill(sensor_templates.fluid_pressure('x500/barometer', 2.5), [101325.0]), message)
+
+
+@pytest.mark.parametrize('frame', ['g', 'gn', 'gns', 'gnss'])  # each alignment of what follows
+def test_nav_sat_fix(frame):
+    message = stamped(NavSatFix(latitude=47.4, longitude=8.5, altitude=500.0))
+    message.header.frame_id = frame
+    message.status.status, message.status.service = 0, 1
+    message.position_covariance = np.diag([4.0, 4.0, 9.0]).ravel()
+    message.position_covariance_type = NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
+    assert_same(fill(sensor_templates.nav_sat_fix(frame, 4.0, 9.0), [47.4, 8.5, 500.0]), message)
+
+
+def test_velocity():
+    message = stamped(TwistWithCovarianceStamped())
+    message.header.frame_id = 'rov/dvl'
+    linear = message.twist.twist.linear
+    linear.x, linear.y, linear.z = 1.0, 2.0, 3.0
+    message.twist.covariance = np.diag([5.0, 5.0, 5.0, 1e6, 1e6, 1e6]).ravel()
+    assert_same(fill(sensor_templates.velocity('rov/dvl', 5.0), [1, 2, 3]), message)
+
+
+@pytest.mark.parametrize('frame', ['r', 'ra', 'ran', 'rang'])
+@pytest.mark.parametrize(('by_sound', 'kind'), [(True, Range.ULTRASOUND), (False, Range.INFRARED)])
+def test_range(frame, by_sound, kind):
+    message = stamped(Range(radiation_type=kind, min_range=0.5, max_range=12.0, range=3.25))
+    message.header.frame_id = frame
+    message.variance = 0.25
+    template = sensor_templates.distance(frame, by_sound, 0.5, 12.0, 0.25)
+    for place in template.stamps:
+        place[:] = fill(templates.clock()).stamps[0]
+    template.blocks[0][:] = templates.as_bytes(np.array([3.25], dtype=np.float32))
+    assert_same(template, message)

@@ -1,0 +1,48 @@
+"""Sensor topics of the node over real DDS."""
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import TwistWithCovarianceStamped
+from harness import Peer, node, stamp_ns, wait_until
+from sensor_msgs.msg import FluidPressure, Imu, MagneticField, NavSatFix, Range
+
+from fluid_sim_ros import Simulation
+from fluid_sim_ros.sensors import SensorSuite
+
+pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
+
+
+def test_sensor_topics_are_those_of_the_simulation():
+    with Peer() as peer:
+        imu = peer.collect(Imu, 'x500/imu/data', reliable=False)
+        others = [
+            peer.collect(kind, f'x500/{name}', reliable=False)
+            for kind, name in (
+                (MagneticField, 'imu/mag'), (FluidPressure, 'pressure'), (Range, 'range'),
+                (NavSatFix, 'gps/fix'), (TwistWithCovarianceStamped, 'gps/vel'),
+            )
+        ]  # fmt: skip
+        with node(scene='x500', realtime__factor=4.0):
+            wait_until(lambda: len(imu) > 100 and min(map(len, others)) > 5, 'every sensor')
+    last = imu[-1]
+    assert last.header.frame_id == 'x500/imu'
+    assert last.orientation_covariance[0] == -1
+    simulation = Simulation('x500')
+    simulation.step(round(stamp_ns(last) / 2_000_000))
+    suite = SensorSuite(simulation, 'x500')
+    suite.update()
+    force, rates = last.linear_acceleration, last.angular_velocity
+    assert [force.x, force.y, force.z] == suite.imu.specific_force.tolist()
+    assert [rates.x, rates.y, rates.z] == suite.imu.angular_velocity.tolist()
+    gaps = np.diff([stamp_ns(message) for message in others[0]])
+    assert set(gaps) == {20_000_000}
+
+
+def test_bottom_track_of_the_rov():
+    with Peer() as peer:
+        velocity = peer.collect(TwistWithCovarianceStamped, 'bluerov2_heavy/dvl/twist',
+                                reliable=False)  # fmt: skip
+        with node(scene='rov', realtime__factor=4.0):
+            wait_until(lambda: len(velocity) > 3, 'the DVL')
+    assert velocity[0].header.frame_id == 'bluerov2_heavy/dvl'
+    assert velocity[0].twist.covariance[0] > 0
