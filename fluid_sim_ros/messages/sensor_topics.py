@@ -63,7 +63,7 @@ class SensorTopic(StateTopic):
     def data(self) -> bytes:
         """Return the message of a new reading, or nothing if none has appeared."""
         sensor = self._sensor
-        sensor.update(self._simulation.step_count, self._simulation.time_ns)
+        sensor.update(self._simulation.tick, self._simulation.time_ns)
         if not sensor.fresh:
             return b''
         self._stamp.set(sensor.time_ns)

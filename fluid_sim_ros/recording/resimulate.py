@@ -214,17 +214,18 @@ class _Flight:
             step = -int(-(message.step * self._recorded_step) // self._step)
         simulation = self.simulation
         while (now := simulation.step_count) < step:
-            simulation.step(min(step - now, self._look_every - now % self._look_every))
+            to_look = self._look_every - simulation.tick % self._look_every
+            simulation.step(min(step - now, to_look))
             self._look_ahead()
 
     def _look_ahead(self) -> None:
         """Measure what will stand in a later message."""
-        step = self.simulation.step_count
-        if step % self._look_every:
+        tick = self.simulation.tick
+        if tick % self._look_every:
             return
         self._topics.look()
         for topic in self._late:
-            if step % topic.period == 0:
+            if tick % topic.period == 0:
                 self._topics.data(topic)
 
     def _apply(self, event: dict[str, Any]) -> None:

@@ -84,13 +84,13 @@ class SensorSuite:
 
     def update(self) -> None:
         """Sample what is due at this step boundary."""
-        step = self._simulation.tick
-        due = [sensor for sensor in self.sensors if step % sensor.period == 0]
+        tick = self._simulation.tick
+        due = [sensor for sensor in self.sensors if tick % sensor.period == 0]
         if due:
             self._simulation.observe(any([sensor.needs_forces for sensor in due]))
         time_ns = self._simulation.time_ns
         for sensor in self.sensors:
-            sensor.update(step, time_ns)
+            sensor.update(tick, time_ns)
 
     def reset(self) -> None:
         """Forget every reading, as after a reset to another state at the same step."""
