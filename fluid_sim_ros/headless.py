@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
+from fluid_sim_ros.grid_watch import GridWatch
 from fluid_sim_ros.pacing import Pacing, RealTime
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.runner import NoSource, Runner, Sink, duration_steps
@@ -34,6 +35,8 @@ class Watcher:
         Steps between two looks.
     largest, largest_at
         Largest fluid force per vehicle [N] in scene order, and its time [s], shape (n,).
+    grids
+        What is said of vehicles beyond the grid of their wind or current; shown at once.
 
     """
 
@@ -41,6 +44,7 @@ class Watcher:
         self.period = max(1, round(_SAMPLE_PERIOD / simulation.timestep))
         self.largest = np.zeros(len(simulation.vehicles))
         self.largest_at = np.zeros(len(simulation.vehicles))
+        self.grids = GridWatch(simulation)
         self._progress = progress
         self._shown_at = 0.0
 
@@ -50,6 +54,8 @@ class Watcher:
         force = np.linalg.norm(rows[:, nat.TOTAL][:, :3], axis=1)
         self.largest_at[force > self.largest] = simulation.time
         np.maximum(self.largest, force, out=self.largest)
+        for line in self.grids.look():
+            self._progress.console.print(f'warning: {line}', markup=False, soft_wrap=True)
         now = time.perf_counter()
         if now - self._shown_at > _SHOW_PERIOD:
             self._shown_at = now
@@ -209,6 +215,7 @@ def _summary(simulation: Simulation, watcher: Watcher, wall: float) -> dict[str,
         'steps': snapshot.step,
         'wall_s': wall,
         'real_time_factor': snapshot.time / wall,
+        'warnings': watcher.grids.lines,
         'vehicles': vehicles,
     }
 

@@ -47,7 +47,9 @@ class Native:
     ``kinetic_energy`` take (model, data, scratch, out). ``thruster(model, data, actuator, out) ->
     int`` writes THRUSTER_VALUES and returns 1 for the thrust of a fluid_sim.thruster, 2 for its
     reaction torque, 0 for any other actuator. ``surface(model, data, points, n, heights) -> int``
-    writes the height [m] of the free surface over n points and returns 2 where it has waves. See
+    writes the height [m] of the free surface over n points and returns 2 where it has waves.
+    ``beyond_grids(model, data, point, out) -> int`` writes how far a point lies beyond the ends of
+    the current's and the wind's grid (t, x, y, z each) and returns 1 if it does. See
     plugins/src/api*.cc for their meaning.
     """
 
@@ -82,6 +84,9 @@ class Native:
         self.surface: Callable[[int, int, int, int, int], int] = library.fsr_surface
         library.fsr_surface.argtypes = [pointer, pointer, pointer, integer, pointer]
         library.fsr_surface.restype = integer
+        self.beyond_grids: Callable[[int, int, int, int], int] = library.fsr_beyond_grids
+        library.fsr_beyond_grids.argtypes = [pointer] * 4
+        library.fsr_beyond_grids.restype = integer
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 
+from fluid_sim_ros.grid_watch import GridWatch
 from fluid_sim_ros.pacing import Lockstep, RealTime
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
@@ -85,6 +86,7 @@ class Diagnostics:
         self._wall = time.monotonic()
         self._simulated = simulation.time
         self._misses = 0
+        self._grids = GridWatch(simulation)
         self.real_time_factor = 0.0
 
     def publish(self, runner: Runner, diverged: str) -> None:
@@ -172,6 +174,8 @@ class Diagnostics:
             for warning in _LIMIT_WARNINGS
         }
         balance = self._simulation.energy_balance()
+        for line in self._grids.look():
+            self._node.get_logger().warning(line)
         values = {
             'kinetic_energy_J': f'{balance.kinetic:.6g}',
             'integrator_feed_W': f'{balance.feed:.3g}',
@@ -180,8 +184,9 @@ class Diagnostics:
         }
         raised = [name for name, count in counts.items() if count]
         message = f'warnings: {", ".join(raised)}' if raised else balance.warning
-        if message:
-            return self._status('engine', _WARN, message, **values)
+        notes = [note for note in (message, *self._grids.lines) if note]
+        if notes:
+            return self._status('engine', _WARN, '; '.join(notes), **values)
         return self._status('engine', _OK, 'no warnings', **values)
 
     def _peers(self) -> DiagnosticStatus:

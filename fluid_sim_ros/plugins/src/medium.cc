@@ -13,6 +13,7 @@ constexpr mjtNum kInfinity = std::numeric_limits<mjtNum>::infinity();
 // Nothing moves but one velocity everywhere, opt.wind.
 bool MovesLikeOptions(const Medium& medium, const mjModel* m) {
   return medium.current.profile.uniform() && medium.wind.profile.uniform() &&
+         !medium.current_grid.any() && !medium.wind_grid.any() &&
          mju_dist3(medium.current.initial, m->opt.wind) == 0 && mju_norm3(medium.wind.initial) == 0;
 }
 
@@ -32,10 +33,12 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
   FlowSample flow;
   if (lower) {
     AddStream(medium.current, state + kCurrentState, d->time, point_w[2], &flow);
+    AddGrid(medium.current_grid, m, d->time, point_w, &flow);
     AddWaves(medium.waves, d->time, point_w, &flow);
   }
   if (!lower || !medium.has_surface) {  // one fluid: what is called current and wind add up
     AddStream(medium.wind, state + kWindState, d->time, point_w[2], &flow);
+    AddGrid(medium.wind_grid, m, d->time, point_w, &flow);
   }
   return flow;
 }
@@ -62,7 +65,7 @@ const char* const kMediumAttributes[] = {
     "current",        "current_slew",    "current_profile", "current_datum", "wind",
     "wind_slew",      "wind_profile",    "wind_datum",      "waves",         "wave_direction",
     "wave_spreading", "wave_components", "wave_repeat",     "wave_cutoff",   "wave_seed",
-    "water_depth"};
+    "water_depth",    "current_grid",    "wind_grid"};
 const int kMediumAttributeCount = sizeof(kMediumAttributes) / sizeof(kMediumAttributes[0]);
 
 bool ReadMedium(const mjModel* m, Medium* medium) {
@@ -95,6 +98,8 @@ bool ReadMedium(const mjModel* m, Medium* medium) {
     medium->current.datum = medium->wind.datum = medium->surface;
     if (!ReadStream(config, "current", &medium->current) ||
         !ReadStream(config, "wind", &medium->wind) ||
+        !ReadGrid(config, m, "current_grid", &medium->current_grid) ||
+        !ReadGrid(config, m, "wind_grid", &medium->wind_grid) ||
         !ReadWaves(config, m, medium->has_surface, medium->surface, &medium->waves)) {
       return false;
     }

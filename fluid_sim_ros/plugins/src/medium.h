@@ -9,6 +9,7 @@
 #include <mujoco/mujoco.h>
 
 #include "flow_sample.h"
+#include "grid.h"
 #include "stream.h"
 #include "waves.h"
 
@@ -37,6 +38,7 @@ struct Medium {
   mjtNum density[2] = {0, 0};    // below, above [kg/m^3]
   mjtNum viscosity[2] = {0, 0};  // below, above [Pa s]
   Stream current, wind;
+  Grid current_grid, wind_grid;
   Waves waves;
 
   bool in_charge() const { return instance >= 0 && !equal; }
