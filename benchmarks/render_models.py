@@ -65,6 +65,7 @@ SHOTS = {
         2.6, strobe=('card', 0.06, 11), distance=1.35, azimuth=35.0, elevation=-30.0
     ),
     'swimmer': Shot(3.3, gait=('swimmer', SWIM.angles)),
+    'fish': Shot(3.3),
     'fly_wing': Shot(0.301, gait=('fly', BEAT.angles)),
     'quadrotor': Shot(0.0),
     'rov': Shot(0.0),

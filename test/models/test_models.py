@@ -12,7 +12,7 @@ from fluid_sim_ros.plugins.native import native
 
 MODELS = Path(__file__).parents[2] / 'models'
 OWN = (
-    'sphere', 'ellipsoid', 'falling_card', 'swimmer', 'fly_wing', 'quadrotor', 'rov',
+    'sphere', 'ellipsoid', 'falling_card', 'swimmer', 'fish', 'fly_wing', 'quadrotor', 'rov',
     'bluerov2', 'bluerov2_heavy', 'x500', 'crazyflie', 'aerosonde', 'remus100',
 )  # fmt: skip
 
