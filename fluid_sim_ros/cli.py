@@ -13,7 +13,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluid_sim_ros import __version__, cli_lab, cli_logs, cli_sweep, cli_vehicle
+from fluid_sim_ros import (
+    __version__,
+    cli_autopilot,
+    cli_lab,
+    cli_logs,
+    cli_sweep,
+    cli_vehicle,
+)
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -87,6 +94,7 @@ def _build_parser() -> argparse.ArgumentParser:
         help='shell patterns of the topics to record (default all)',
     )  # fmt: skip
     run.add_argument('--json', metavar='PATH', help=json_help)
+    cli_autopilot.add_options(run)
     run.set_defaults(function=_run)
 
     scenes = commands.add_parser('scenes', help='list the scenes')
@@ -104,6 +112,7 @@ def _build_parser() -> argparse.ArgumentParser:
 
     doctor = commands.add_parser('doctor', help='what is installed, what is missing, what to type')
     doctor.add_argument('--json', metavar='PATH', help=json_help)
+    cli_autopilot.add_doctor_options(doctor)
     doctor.set_defaults(function=_doctor)
     return parser
 
@@ -123,6 +132,7 @@ def _run(arguments: argparse.Namespace) -> int:
         realtime=arguments.pacing == 'realtime',
         record=arguments.record,
         record_topics=arguments.record_topics,
+        autopilot=cli_autopilot.chosen_run(arguments),
     )
     _show(arguments.json, summary_table(result), result)
     if arguments.record and arguments.json != '-':
@@ -160,6 +170,10 @@ def _demo(rest: Sequence[str]) -> int:
 def _doctor(arguments: argparse.Namespace) -> int:
     from fluid_sim_ros import doctor
 
+    if arguments.autopilot:
+        table, seen = cli_autopilot.look(arguments)
+        _show(arguments.json, table, seen)
+        return 0
     rows = doctor.examine()
     _show(arguments.json, doctor.table(rows), [row.as_dict() for row in rows])
     return 0 if doctor.works(rows) else 1

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,8 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from fluid_sim_ros.autopilot import CommandLog
+from fluid_sim_ros.cli_flight import AutopilotRun, Flight
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.grid_watch import GridWatch
 from fluid_sim_ros.pacing import Pacing, RealTime
@@ -76,6 +78,7 @@ def run_scene(
     realtime: bool = False,
     record: str | Path | None = None,
     record_topics: Sequence[str] = ('*',),
+    autopilot: AutopilotRun | None = None,
 ) -> dict[str, Any]:
     """
     Run a scene to its end and return what came out, ready for JSON.
@@ -85,13 +88,15 @@ def run_scene(
     scene, timestep, integrator, fluid, seed
         As for ``Simulation``.
     duration
-        Simulated time [s]; default: the scene's.
+        Simulated time [s]; default: the scene's, or with an autopilot until it is interrupted.
     wind, current
         Velocity of the medium from the start [m/s], world axes (ENU).
     realtime
         Keep pace with the clock instead of running free.
     record, record_topics
         MCAP file or bag folder to record to, and shell patterns of the topics.
+    autopilot
+        Who flies.
 
     Returns
     -------
@@ -108,10 +113,12 @@ def run_scene(
     simulation = Simulation(
         scene, seed=seed, timestep=timestep, integrator=integrator, fluid=fluid
     )
-    seconds = simulation.scene.duration if duration is None else duration
-    if not 0 < seconds < float('inf'):
+    seconds = duration
+    if seconds is None and autopilot is None:
+        seconds = simulation.scene.duration
+    if seconds is not None and not 0 < seconds < float('inf'):
         raise ConfigError(f'duration {seconds:g} s: must be finite and above 0')
-    steps = duration_steps(seconds, simulation.timestep)
+    steps = duration_steps(seconds or 0.0, simulation.timestep)
     if wind is not None:
         simulation.set_wind(wind)
     if current is not None:
@@ -124,9 +131,16 @@ def run_scene(
         progress.add_task(simulation.scene.name, total=seconds)
         watcher = Watcher(simulation, progress)
         sinks: list[Sink] = [watcher]
-        with _recording(simulation, record, record_topics, sinks, fluid) as files:
+        with _recording(simulation, record, record_topics, sinks, fluid) as (files, log):
             begin = time.perf_counter()
-            Runner(simulation, NoSource(), sinks, pacing).run(until=steps)
+            if autopilot is None:
+                Runner(simulation, NoSource(), sinks, pacing).run(until=steps)
+            else:
+                flight = Flight(simulation, pacing, autopilot, log, progress.console.print)
+                runner = Runner(simulation, NoSource(), sinks, flight.pacing)
+                # an interruption is how such a run ends
+                with flight.of(runner, autopilot), suppress(KeyboardInterrupt):
+                    runner.run(until=steps)
             wall = time.perf_counter() - begin
     return _summary(simulation, watcher, wall) | files
 
@@ -138,10 +152,10 @@ def _recording(
     topics: Sequence[str],
     sinks: list[Sink],
     fluid: str | None,
-) -> Iterator[dict[str, Any]]:
-    """Add a recording sink where one is asked for; give what the result says of it."""
+) -> Iterator[tuple[dict[str, Any], CommandLog | None]]:
+    """Add a recording sink where one is asked for; give what the result says of it, and it."""
     if path is None:
-        yield {}
+        yield {}, None
         return
     try:
         from fluid_sim_ros.recording.sink import RecordingSink
@@ -154,7 +168,7 @@ def _recording(
     sink = RecordingSink(simulation, Path(path), settings, topics)
     sinks.append(sink)
     try:
-        yield {'record': str(sink.recorder.paths[0])}
+        yield {'record': str(sink.recorder.paths[0])}, sink
     finally:
         sink.close()
     if sink.recorder.fault:
@@ -186,7 +200,7 @@ def _progress_bar() -> Progress:
     # On standard error, so that standard output holds the result only.
     return Progress(
         TextColumn('{task.description}'), BarColumn(),
-        TextColumn('{task.completed:.1f}/{task.total:g} s'), TimeRemainingColumn(),
+        TextColumn('{task.completed:.1f} s'), TimeRemainingColumn(),
         console=Console(stderr=True), transient=True,
     )  # fmt: skip
 

@@ -76,6 +76,7 @@ class ArduPilotBridge:
         self._heard_at = 0.0
         self._gone = False
         self._count = -1
+        self._pulses: tuple[int, ...] = ()
         self._rate = 0
         self._steps = 0  # of a frame
         self._frame_end = 0  # step at which the present frame ends
@@ -120,6 +121,7 @@ class ArduPilotBridge:
         values = {
             'protocol': 'ardupilot', 'port': self.port, 'peer': _text(self._peer),
             'frame_rate_hz': self._rate, 'frame_count': self._count,
+            'last_outputs': list(self._pulses),
             'saturated': self._commands.saturated, **counters.values(),
         }  # fmt: skip
         if self._peer is None:
@@ -161,6 +163,7 @@ class ArduPilotBridge:
             if self._surroundings.log is not None:
                 self._surroundings.log.event(timestep=str(timestep))
         self._count = packet.count
+        self._pulses = packet.pulses
         self._commands.set(*self._actuators.commands(packet.pulses))
         stray = self._actuators.look_for_stray(packet.pulses)
         if stray is not None:

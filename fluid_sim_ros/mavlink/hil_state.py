@@ -54,7 +54,7 @@ class HilState:
     Raises
     ------
     ConfigError
-        If the vehicle lacks a sensor that PX4 needs, or a latency is not a multiple of 4 ms.
+        If the vehicle lacks a sensor that PX4 needs.
 
     """
 
@@ -73,10 +73,6 @@ class HilState:
         if not file.vision:
             _there(suite.barometer, 'barometer', vehicle)
             _there(suite.gnss, 'gnss', vehicle)
-        if suite.period != self._imu.period:
-            raise ConfigError(
-                f"px4: '{vehicle}': latencies of its sensors must be multiples of 4 ms"
-            )
         self._noise = random.Random(simulation.seed)
         self._count = 0
 
@@ -148,13 +144,15 @@ def _there(sensor: Present | None, kind: str, vehicle: str) -> Present:
 
 
 def _for_px4(sensors: SensorsFile, vision: bool) -> SensorsFile:
-    """Return those of a vehicle's sensors that PX4 takes, at the rates that it wants."""
+    """Return the sensors that PX4 takes: at its rates, without latency, as its SITL expects."""
     periods = {'imu': 1, 'magnetometer': _FIELD, 'airspeed': _PRESSURE}
     if not vision:
         periods |= {'barometer': _PRESSURE, 'gnss': _TRUTH}
     chosen = {
         # a fraction, because 83.3 Hz has no decimal number
-        kind: getattr(sensors, kind).model_copy(update={'rate': Fraction(RATE, period)})
+        kind: getattr(sensors, kind).model_copy(
+            update={'rate': Fraction(RATE, period), 'latency': 0.0}
+        )
         for kind, period in periods.items()
         if getattr(sensors, kind) is not None
     }

@@ -74,8 +74,9 @@ class AutopilotFile(Strict):
     protocol
         ``px4`` or ``ardupilot``.
     airframe
-        What the autopilot itself calls this vehicle: SYS_AUTOSTART of PX4; binary and frame of
-        ArduPilot.
+        What the autopilot calls this vehicle: SYS_AUTOSTART of PX4, the program of ArduPilot.
+    parameters
+        ArduPilot: parameters that the vehicle needs, given to a program that we start.
     actuators
         What drives each thruster and joint.
     vision
@@ -90,6 +91,7 @@ class AutopilotFile(Strict):
     protocol: Literal['px4', 'ardupilot']
     airframe: str
     source: str = ''
+    parameters: dict[str, Number] = Field(default_factory=dict)
     actuators: list[ActuatorFile]
     vision: bool = False
     rc: Annotated[tuple[Pulse, ...], Field(max_length=18)] = ()

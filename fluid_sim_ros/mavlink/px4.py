@@ -8,6 +8,7 @@ free-wheels: without an answer it goes on at real time.
 """
 
 import time
+from collections.abc import Sequence
 
 from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
 from fluid_sim_ros.environment import exact
@@ -79,6 +80,7 @@ class Px4Bridge:
         self.port = self._server.port
         self._locked = False  # it has answered: wait for it
         self._flown = False  # an autopilot was here before
+        self._outputs: Sequence[float] = ()
         self._sent_us = 0
         self._answered_us = 0
         self._asked_at = 0.0
@@ -116,6 +118,7 @@ class Px4Bridge:
         values = {
             'protocol': 'px4', 'port': self.port, 'peer': server.peer,
             'autopilot_time_s': self._sent_us * 1e-6, 'armed': self._state.armed,
+            'last_outputs': [round(value, 3) for value in self._outputs],
             'saturated': self._commands.saturated, **counters.values(),
         }  # fmt: skip
         if not server.connected:
@@ -213,6 +216,7 @@ class Px4Bridge:
             if not actuators.lockstep:
                 self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
         self._state.armed = actuators.armed
+        self._outputs = actuators.controls
         self._commands.set(*self._actuators.commands(actuators.controls))
         stray = self._actuators.look_for_stray(actuators.controls)
         if stray is not None:

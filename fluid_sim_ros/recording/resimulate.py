@@ -6,6 +6,7 @@ import platform
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -233,6 +234,8 @@ class _Flight:
         if 'stale' in event:
             name = event['stale']
             simulation.set_thrust(name, [0.0] * len(simulation.vehicles[name].thrusters))
+        if 'timestep' in event:
+            simulation.set_timestep(Fraction(event['timestep']))
         settings = event.get('settings', {})
         self._settings.update(settings)
         if 'enable_wind' in settings:

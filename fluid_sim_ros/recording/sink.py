@@ -65,6 +65,14 @@ class RecordingSink:
         """Record a command message before it is applied, by its relative topic name."""
         self.recorder.command(self._commands[name], data)
 
+    def event(self, **change: Any) -> None:
+        """Record a change that no command message made."""
+        self.recorder.event(**change)
+
+    def next_segment(self) -> None:
+        """Begin a new file: simulated time has been set back to 0."""
+        self.recorder.next_segment()
+
     def close(self) -> None:
         """End the file."""
         self.recorder.close()

@@ -5,9 +5,11 @@ It knows nothing of this package: states come out of the JSON text, motors are d
 factors of ArduPilot's own tables (AP_MotorsMatrix, AP_Motors6DOF).
 """
 
+import contextlib
 import math
 import socket
 import struct
+import time
 
 from json_reader import JsonReader
 
@@ -48,14 +50,18 @@ class Link:
         return struct.pack(form, magic, self.rate, self.count, *pulses)
 
     def exchange(self, pulses: list[int]) -> dict[str, list[float]]:
-        data = self.packet(pulses)
+        data, deadline = self.packet(pulses), time.monotonic() + 5.0
         self.socket.send(data)
         while True:
             try:
                 reply = self.socket.recv(65536)
                 break
+            except ConnectionRefusedError:  # the simulation is not there yet, or no longer
+                time.sleep(0.01)
             except TimeoutError:
                 self.repeats += 1
+            assert time.monotonic() < deadline, 'nobody answers'
+            with contextlib.suppress(ConnectionRefusedError):
                 self.socket.send(data)
         self.count += 1
         return self.reader.read(reply)
