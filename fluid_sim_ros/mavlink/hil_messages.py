@@ -24,7 +24,6 @@ _VISION, _LOCAL_NED, _BODY_FRD = 2, 1, 12
 _ABSENT: Vector3 = (0.0, 0.0, 0.0)
 _GCS, _NOT_AN_AUTOPILOT = 6, 8  # MAV_TYPE_GCS, MAV_AUTOPILOT_INVALID
 _COURSE_UNKNOWN = 65535  # [cdeg]
-_STANDARD_GRAVITY = 9.80665  # [m/s^2]
 #: Upper triangle of a 6x6 covariance: places of its diagonal.
 _DIAGONAL = (0, 6, 11, 15, 18, 20)
 #: First byte of a message of MAVLink 1.
@@ -159,8 +158,9 @@ class HilCodec:
         """
         Return HIL_STATE_QUATERNION, the true state for the autopilot's log.
 
-        Latitude, longitude [deg] and altitude [m]; [m/s] become cm/s and m/s^2 become thousandths
-        of g, saturated at their 16 bits.
+        Latitude, longitude [deg] and altitude [m]; [m/s] become cm/s, and [m/s^2] thousandths of
+        it, saturated at their 16 bits. (The message's definition says thousandths of g; PX4 reads
+        thousandths of m/s^2.)
         """
         latitude, longitude, altitude = geodetic
         air = min(max(round(100 * airspeed), 0), 65535)
@@ -169,7 +169,7 @@ class HilCodec:
                 time_us, list(attitude), *rates,
                 round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
                 *(_int16(100 * v) for v in velocity_ned), air, air,
-                *(_int16(1000 * a / _STANDARD_GRAVITY) for a in specific_force),
+                *(_int16(1000 * a) for a in specific_force),
             )
         )  # fmt: skip
 

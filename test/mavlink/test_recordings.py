@@ -110,3 +110,17 @@ def test_recorded_states_are_written_as_ardupilot_read_them(name):
         assert written == {
             key: pytest.approx(values, rel=1e-8, abs=1e-15) for key, values in expected.items()
         }
+
+
+def test_the_true_state_has_the_units_that_px4_reads():
+    data = HilCodec().truth(
+        4000, (1.0, 0.0, 0.0, 0.0), (0.1, 0.2, 0.3), (47.1, 8.2, 430.5), (1.234, -2.0, 400.0),
+        3.2, (1.5, -40.0, -9.80665),
+    )  # fmt: skip
+    ((name, fields),), _ = hil_wire.frames(data)
+    assert name == 'HIL_STATE_QUATERNION'
+    # cm/s and mm/s^2, saturated at 16 bits
+    assert [fields[key] for key in ('vx', 'vy', 'vz')] == [123, -200, 32767]
+    assert [fields[key] for key in ('xacc', 'yacc', 'zacc')] == [1500, -32768, -9807]
+    assert fields['true_airspeed'] == 320
+    assert (fields['lat'], fields['lon'], fields['alt']) == (471000000, 82000000, 430500)
