@@ -111,6 +111,7 @@ def _build_parser() -> argparse.ArgumentParser:
     )
 
     doctor = commands.add_parser('doctor', help='what is installed, what is missing, what to type')
+    doctor.add_argument('scene', nargs='?', help='a scene to look at, instead of the machine')
     doctor.add_argument('--json', metavar='PATH', help=json_help)
     cli_autopilot.add_doctor_options(doctor)
     doctor.set_defaults(function=_doctor)
@@ -169,12 +170,13 @@ def _demo(rest: Sequence[str]) -> int:
 
 def _doctor(arguments: argparse.Namespace) -> int:
     from fluid_sim_ros import doctor
+    from fluid_sim_ros.cli_scene import examine_scene
 
     if arguments.autopilot:
         table, seen = cli_autopilot.look(arguments)
         _show(arguments.json, table, seen)
         return 0
-    rows = doctor.examine()
+    rows = doctor.examine() if arguments.scene is None else examine_scene(arguments.scene)
     _show(arguments.json, doctor.table(rows), [row.as_dict() for row in rows])
     return 0 if doctor.works(rows) else 1
 

@@ -18,6 +18,9 @@ from fluid_sim_ros.scene_schema import Gait, Home, SceneFile, ScheduledEvent, Ve
 from fluid_sim_ros.schema import parse, read_yaml
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
 from fluid_sim_ros.wave_schema import Waves
+from fluid_sim_ros.weather import apply_weather
+from fluid_sim_ros.weather_files import with_series
+from fluid_sim_ros.weather_schema import CurrentModel, WindModel
 
 INTEGRATORS = {
     name.removeprefix('mjINT_').lower(): getattr(mujoco.mjtIntegrator, name)
@@ -57,7 +60,7 @@ class Scene:
         The MJCF file.
     mjcf
         The model itself as text, in place of the file.
-    description, medium, duration, keyframe, home, waves, schedule, gait
+    description, medium, duration, keyframe, home, waves, wind, current, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
@@ -74,6 +77,8 @@ class Scene:
     keyframe: str | None = None
     home: Home = field(default_factory=Home)
     waves: Waves | None = None
+    wind: tuple[WindModel, ...] = ()
+    current: tuple[CurrentModel, ...] = ()
     schedule: tuple[ScheduledEvent, ...] = ()
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
@@ -151,12 +156,15 @@ class Scene:
             force_fluid(spec, fluid, self.model_path)
         elif self.waves is not None:  # the forced rungs have no free surface
             _raise_waves(spec, self.waves.keys(seed), self.name)
+        if fluid != 'none':
+            apply_weather(spec, self.wind, self.current, seed, self.name)
         model = compile_spec(spec, self.model_path)
         vehicles = self._vehicles(model)
         schedule = Schedule(self.schedule, model.opt.timestep)
         _check_schedule(self, vehicles)
         gaits = Gaits(self.gait, vehicles, model.opt.timestep)
         streams = _streams(model, self.medium)
+        self._check_weather(streams)
         return CompiledScene(model, vehicles, schedule, gaits, self._keyframe_id(model), streams)
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
@@ -167,6 +175,14 @@ class Scene:
             name: resolve(name, file, model, f'{self.name}: vehicle {name!r}')
             for name, file in files.items()
         }
+
+    def _check_weather(self, streams: tuple[str, ...]) -> None:
+        for name, models in (('wind', self.wind), ('current', self.current)):
+            if models and name not in streams:
+                raise ConfigError(
+                    f"{self.name}: key '{name}': the scene has no such medium; "
+                    f'it has: {listed(streams)}'
+                )
 
     def _keyframe_id(self, model: mujoco.MjModel) -> int:
         if self.keyframe is None:
@@ -214,6 +230,8 @@ def _from_yaml(path: Path) -> Scene:
         keyframe=content.keyframe,
         home=content.home,
         waves=content.waves,
+        wind=with_series(content.wind, path.parent),
+        current=with_series(content.current, path.parent),
         schedule=tuple(content.schedule),
         gait=content.gait,
         vehicles=vehicles,

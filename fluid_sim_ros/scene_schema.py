@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from fluid_sim_ros.schema import Name, NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.sensor_schema import SensorsFile
 from fluid_sim_ros.wave_schema import Waves
+from fluid_sim_ros.weather_schema import Current, Wind
 
 
 class VehicleFile(Strict):
@@ -84,5 +85,7 @@ class SceneFile(Strict):
     keyframe: str | None = None
     home: Home = Home()
     waves: Waves | None = None
+    wind: Wind = []
+    current: Current = []
     schedule: list[ScheduledEvent] = []
     gait: dict[Name, Gait] = {}

@@ -88,27 +88,47 @@ def parse(schema: type[Schema], content: Any, path: Path) -> Schema:
 def _first_fault(schema: type[BaseModel], error: ValidationError) -> str:
     # the deepest fault is the one that the writer can act on (a union reports each member)
     fault = max(error.errors(include_url=False), key=lambda fault: len(fault['loc']))
-    # pydantic adds the names of union members to the place; they mean nothing to a reader
-    members = {'str', *(member.__name__ for member in Strict.__subclasses__())}
-    place = '.'.join(
-        str(part) for part in fault['loc'] if part not in members and '[' not in str(part)
-    )
-    if fault['type'] == 'extra_forbidden':
-        owner = _owner(schema, fault['loc'][:-1])
+    place, owner = _place(schema, fault['loc'])
+    kind, message = fault['type'], fault['msg'].removeprefix('Value error, ')
+    if kind == 'extra_forbidden':
         return f"unknown key '{place}'; allowed: {listed(owner.model_fields)}"
-    if fault['type'] == 'missing':
+    if kind == 'missing':
         return f"missing key '{place}'"
-    message = fault['msg'].removeprefix('Value error, ')
+    if kind == 'union_tag_not_found':
+        return f"missing key '{place}.model'"
+    if kind == 'union_tag_invalid':
+        known = fault['ctx']['expected_tags'].replace("'", '')
+        return f"key '{place}.model': '{fault['ctx']['tag']}' is not known; allowed: {known}"
+    if isinstance(fault['input'], dict):  # a rule between keys: the whole mapping tells nothing
+        return f"key '{place}': {message}"
     return f"key '{place}': {message} (got {fault['input']!r})"
 
 
-def _owner(schema: type[BaseModel], place: tuple[Any, ...]) -> type[BaseModel]:
-    """Return the schema of the mapping that a fault's place lies in."""
-    for part in place:
-        field = schema.model_fields.get(str(part))
-        if field is not None:
-            schema = next(_schemas(field.annotation), schema)
-    return schema
+def _place(schema: type[BaseModel], location: tuple[Any, ...]) -> tuple[str, type[BaseModel]]:
+    """
+    Return a fault's place as a reader writes it, and the schema of the mapping it lies in.
+
+    pydantic adds to the place which member of a union it took: a class, a type, or the value of
+    the key ``model``; these mean nothing to a reader.
+    """
+    parts, members = [], [schema]
+    for part in location:
+        chosen = [member for member in members if part in (member.__name__, _model(member))]
+        if chosen and not any(part in member.model_fields for member in members):
+            members = chosen
+        elif part != 'str' and '[' not in str(part):
+            parts.append(str(part))
+            fields = [m.model_fields[part] for m in members if part in m.model_fields]
+            found = [s for field in fields for s in _schemas(field.annotation)]
+            schema, members = members[0], found or members
+    return '.'.join(parts), schema
+
+
+def _model(schema: type[BaseModel]) -> str | None:
+    """Return the value of the key ``model`` that chooses a schema in a union."""
+    field = schema.model_fields.get('model')
+    values = get_args(field.annotation) if field else ()
+    return values[0] if values else None
 
 
 def _schemas(annotation: Any) -> Iterator[type[BaseModel]]:

@@ -114,6 +114,16 @@ class Simulation:
         return self._streams.available
 
     @property
+    def flow_road(self) -> str:
+        """
+        How wind and current reach the bodies.
+
+        ``opt.wind``: one velocity for the whole scene. ``fluid_sim.medium``: each body meets its
+        own, by place and time.
+        """
+        return self._streams.road
+
+    @property
     def vehicles(self) -> Mapping[str, Vehicle]:
         """Vehicles by name."""
         return MappingProxyType(self._vehicles)
@@ -341,8 +351,12 @@ class Simulation:
             self._streams.check('current')
         self._schedule.add(Event(max(self._clock.tick_at(time_ns), self.tick), change))
 
+    def reseed(self) -> None:
+        """Start turbulence and other noise anew at the present time, with this run's seed."""
+        self._streams.seed(self.seed)
+
     def enable_wind(self, enabled: bool) -> None:
-        """Switch wind and current on or off; the commanded velocities are kept."""
+        """Switch wind and current on or off, gusts included; commanded velocities are kept."""
         self._streams.enable(enabled)
 
     def set_wrench(

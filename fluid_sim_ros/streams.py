@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fluid_sim_ros.engine import Engine
 from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.weather import MEDIUM, OPTION
 
 Array = NDArray[np.float64]
 STREAMS = ('wind', 'current')
@@ -26,8 +27,9 @@ class Streams:
     """
     The wind and the current of a scene.
 
-    A model with ``fluid_sim.medium`` takes targets, towards which its fluids move at a limited
-    rate; without one, ``opt.wind`` is the velocity of the only fluid and changes at once.
+    A model with ``fluid_sim.medium`` takes targets, towards which its mean flows move at a limited
+    rate; signals and turbulence ride on top. Without one, ``opt.wind`` is the velocity of the only
+    fluid and changes at once.
 
     Parameters
     ----------
@@ -61,6 +63,15 @@ class Streams:
             self._velocity[name] = np.zeros(3)
         self._velocity[self.available[0]] = self._initial.copy()
         self._write()
+
+    @property
+    def road(self) -> str:
+        """How the flow reaches the bodies: ``fluid_sim.medium`` or ``opt.wind``."""
+        return MEDIUM if self._has_medium else OPTION
+
+    def seed(self, seed: int) -> None:
+        """Start what is random anew, with a seed, at the present time."""
+        native().seed_medium(*self._engine.addresses, float(seed))
 
     def check(self, name: str) -> None:
         """Raise CommandError for a stream that the scene does not have."""
@@ -98,5 +109,6 @@ class Streams:
             self._written[name][:] = self._velocity[name] if self._enabled else 0.0
         if self._has_medium:
             native().set_medium(*self._engine.addresses, *self._addresses)
+            native().enable_medium(*self._engine.addresses, self._enabled)
         else:
             self._engine.model.opt.wind = self._written[self.available[0]]

@@ -43,11 +43,13 @@ class Native:
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
     the interpreter lock while they run. ``set_medium(model, data, wind, current) -> int`` takes
-    addresses of three numbers or 0, ``get_medium`` the same. ``explicit_force`` and
-    ``kinetic_energy`` take (model, data, scratch, out). ``thruster(model, data, actuator, out) ->
-    int`` writes THRUSTER_VALUES and returns 1 for the thrust of a fluid_sim.thruster, 2 for its
-    reaction torque, 0 for any other actuator. ``surface(model, data, points, n, heights) -> int``
-    writes the height [m] of the free surface over n points and returns 2 where it has waves.
+    addresses of three numbers or 0, ``get_medium`` the same; ``enable_medium(model, data, on)``;
+    ``seed_medium(model, data, seed)``; ``flow(model, data, body, point, out)``.
+    ``explicit_force`` and ``kinetic_energy`` take (model, data, scratch, out).
+    ``thruster(model, data, actuator, out) -> int`` writes THRUSTER_VALUES and returns 1 for the
+    thrust of a fluid_sim.thruster, 2 for its reaction torque, 0 for any other actuator.
+    ``surface(model, data, points, n, heights) -> int`` writes the height [m] of the free surface
+    over n points and returns 2 where it has waves.
     ``beyond_grids(model, data, point, out) -> int`` writes how far a point lies beyond the ends of
     the current's and the wind's grid (t, x, y, z each) and returns 1 if it does. See
     plugins/src/api*.cc for their meaning.
@@ -66,6 +68,15 @@ class Native:
         self.set_medium: Callable[[int, int, int, int], int] = library.fsr_set_medium
         library.fsr_set_medium.argtypes = [pointer] * 4
         library.fsr_set_medium.restype = integer
+        self.enable_medium: Callable[[int, int, int], int] = library.fsr_enable_medium
+        library.fsr_enable_medium.argtypes = [pointer, pointer, integer]
+        library.fsr_enable_medium.restype = integer
+        self.seed_medium: Callable[[int, int, float], int] = library.fsr_seed_medium
+        library.fsr_seed_medium.argtypes = [pointer, pointer, ctypes.c_double]
+        library.fsr_seed_medium.restype = integer
+        self.flow: Callable[[int, int, int, int, int], None] = library.fsr_flow
+        library.fsr_flow.argtypes = [pointer, pointer, integer, pointer, pointer]
+        library.fsr_flow.restype = None
         self.get_medium: Callable[[int, int, int, int], int] = library.fsr_get_medium
         library.fsr_get_medium.argtypes = [pointer] * 4
         library.fsr_get_medium.restype = integer

@@ -109,6 +109,8 @@ class RunDescription:
             np.array(streams['wind']), np.array(streams['current']), streams['enabled']
         )
         simulation.load_state(replace(saved, engine=engine, streams=commanded))
+        if changed:  # the recorded state holds the noise of the recorded seed
+            simulation.reseed()
 
 
 def describe(

@@ -122,7 +122,7 @@ def test_wrong_input_is_one_line_and_exit_code_2(capsys, arguments, message):
         ['run', 'rov', '--pacing', 'lockstep'],
         ['run', 'rov', '--current', '1', '2'],
         ['run', 'rov', '--seed', '1.5'],
-        ['doctor', 'now'],
+        ['doctor', 'rov', 'now'],
     ],
 )
 def test_wrong_usage_is_one_line_and_exit_code_2(capsys, arguments):

@@ -192,36 +192,13 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
     } else {
       ObserveJointedBase(m, scratch, bases[i], row);
     }
-    MediumVelocity(m, d, bases[i], row + kPosition, row + kMediumVelocity);
+    const Flow flow = FluidAround(m, d, bases[i], row + kPosition);
+    mju_copy3(row + kMediumVelocity, flow.velocity);
     if (forces) {
       ObserveWrenches(m, scratch, bases[i], row);
       ObserveAcceleration(m, scratch, bases[i], row);
     }
   }
-}
-
-// Targets that the wind and the current move towards from now on [m/s], world axes; a null pointer
-// leaves one as it is. Returns 1, or 0 for a model where no fluid_sim.medium is in charge (set
-// opt.wind there). Writes plugin_state only.
-FSR_API int fsr_set_medium(const mjModel* m, mjData* d, const double* wind, const double* current) {
-  const Assembly* assembly = FindAssembly(m, d);
-  if (!assembly || !assembly->medium.in_charge()) return 0;
-  const Medium& medium = assembly->medium;
-  mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
-  if (current) SetTarget(medium.current, state + kCurrentState, d->time, current);
-  if (wind) SetTarget(medium.wind, state + kWindState, d->time, wind);
-  return 1;
-}
-
-// Targets of wind and current in d [m/s]; returns 0 and writes nothing where no medium is in
-// charge.
-FSR_API int fsr_get_medium(const mjModel* m, const mjData* d, double* wind, double* current) {
-  const Assembly* assembly = FindAssembly(m, d);
-  if (!assembly || !assembly->medium.in_charge()) return 0;
-  const mjtNum* state = d->plugin_state + m->plugin_stateadr[assembly->medium.instance];
-  mju_copy3(current, state + kCurrentState + kTarget);
-  mju_copy3(wind, state + kWindState + kTarget);
-  return 1;
 }
 
 // Explicit generalized fluid force of MuJoCo and the plugins at the state in d, from the terms

@@ -9,11 +9,14 @@
 #include "config.h"
 #include "inertia.h"
 #include "point_motion.h"
+#include "spatial.h"
 #include "stock_terms.h"
 #include "thruster.h"
 
 namespace fluid_sim {
 namespace {
+
+const Medium kNoMedium{};
 
 bool IsNamed(const mjModel* m, int instance, const char* name) {
   return std::strcmp(PluginName(m, instance), name) == 0;
@@ -89,10 +92,8 @@ void CorrectStockForces(const mjModel* m, mjData* d, const Medium& medium) {
     AddStockTerms(m, d, body, flow[0].velocity, center, local);
     AddStockTerms(m, d, body, m->opt.wind, center, stock);
     for (int i = 0; i < kTermCount; ++i) {
-      mju_addTo3(change.force, local[i].force);
-      mju_addTo3(change.torque, local[i].torque);
-      mju_subFrom3(change.force, stock[i].force);
-      mju_subFrom3(change.torque, stock[i].torque);
+      AddDifference3(change.force, local[i].force, stock[i].force);
+      AddDifference3(change.torque, local[i].torque, stock[i].torque);
     }
     for (mjtNum* target : {d->qfrc_fluid, d->qfrc_passive}) {
       AddGeneralizedForce(m, d, body, center, change.force, change.torque, target);
@@ -168,6 +169,11 @@ void Compute(const mjModel* m, mjData* d, int instance, int) {
   if (assembly && assembly->owner == instance) Evaluate(*assembly, m, d);
 }
 
+void Advance(const mjModel* m, mjData* d, int instance) {
+  const Assembly* assembly = Stored(d, instance);
+  if (assembly && assembly->medium.instance == instance) AdvanceMedium(assembly->medium, m, d);
+}
+
 void Register(const char* name, const char* const* attributes, int count,
               int (*nstate)(const mjModel*, int)) {
   mjpPlugin plugin;
@@ -181,6 +187,7 @@ void Register(const char* name, const char* const* attributes, int count,
   plugin.destroy = Destroy;
   plugin.reset = Reset;
   plugin.compute = Compute;
+  plugin.advance = Advance;
   mjp_registerPlugin(&plugin);
 }
 
@@ -248,31 +255,24 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
 
 void AddLocalStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                         Wrench terms[kTermCount]) {
-  mjtNum wind_w[3];
-  MediumVelocity(m, d, body, d->xipos + 3 * body, wind_w);
-  AddStockTerms(m, d, body, wind_w, point_w, terms);
+  const Flow flow = FluidAround(m, d, body, d->xipos + 3 * body);
+  AddStockTerms(m, d, body, flow.velocity, point_w, terms);
 }
 
-void MediumVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
-                    mjtNum velocity[3]) {
+Flow FluidAround(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3]) {
   const Assembly* assembly = FindAssembly(m, d);
-  if (!assembly) {
-    mju_copy3(velocity, m->opt.wind);
-    return;
-  }
-  const Medium& medium = assembly->medium;
+  const Medium& medium = assembly ? assembly->medium : kNoMedium;
   const bool above =
       medium.in_charge() && medium.has_surface && point_w[2] > SurfaceHeight(medium, d, point_w);
   Flow flows[2];
   FlowsAt(medium, m, d, body, point_w, above ? 0 : 1, flows);
-  mju_copy3(velocity, flows[0].velocity);
+  return flows[0];
 }
 
 void RegisterAssembly() {
   Register("fluid_sim.body", kBodyAttributes, kBodyAttributeCount,
            [](const mjModel*, int) { return 0; });
-  Register("fluid_sim.medium", kMediumAttributes, kMediumAttributeCount,
-           [](const mjModel*, int) { return static_cast<int>(kMediumState); });
+  Register("fluid_sim.medium", kMediumAttributes, kMediumAttributeCount, MediumStateSize);
   Register("fluid_sim.foil", kFoilAttributes, kFoilAttributeCount,
            [](const mjModel*, int) { return 0; });
 }

@@ -42,9 +42,8 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
 void AddLocalStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                         Wrench terms[kTermCount]);
 
-// Velocity of the fluid that a world point of `body` lies in [m/s].
-void MediumVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
-                    mjtNum velocity[3]);
+// The fluid that a world point of `body` lies in.
+Flow FluidAround(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3]);
 
 // Register fluid_sim.body, fluid_sim.medium and fluid_sim.foil.
 void RegisterAssembly();

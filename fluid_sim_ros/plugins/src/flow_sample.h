@@ -19,8 +19,10 @@ struct FlowSample {
 
 // Du/Dt = du/dt + (u.grad)u [m/s^2].
 inline void MaterialDerivative(const FlowSample& flow, mjtNum out[3]) {
-  mju_mulMatVec3(out, flow.gradient, flow.velocity);
-  mju_addTo3(out, flow.rate);
+  const mjtNum *g = flow.gradient, *u = flow.velocity;
+  for (int i = 0; i < 3; ++i) {
+    out[i] = flow.rate[i] + g[3 * i] * u[0] + g[3 * i + 1] * u[1] + g[3 * i + 2] * u[2];
+  }
 }
 
 }  // namespace fluid_sim

@@ -1,52 +1,78 @@
 #include "medium.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
+
+#include "point_motion.h"
 
 namespace fluid_sim {
 namespace {
 
-constexpr mjtNum kInfinity = std::numeric_limits<mjtNum>::infinity();
+std::uint64_t Seed(const mjtNum* state) { return static_cast<std::uint64_t>(state[kSeed]); }
 
-// Nothing moves but one velocity everywhere, opt.wind.
-bool MovesLikeOptions(const Medium& medium, const mjModel* m) {
-  return medium.current.profile.uniform() && medium.wind.profile.uniform() &&
-         !medium.current_grid.any() && !medium.wind_grid.any() &&
-         mju_dist3(medium.current.initial, m->opt.wind) == 0 && mju_norm3(medium.wind.initial) == 0;
+// The numbers of a stream's own in plugin_state; 0 and 1 name their noise.
+StreamDrive CurrentDrive(const Medium& medium, const mjtNum* state) {
+  return {state + kCurrentState, state + medium.current_noise, Seed(state), 0, state[kOn] > 0};
 }
 
-// Stock MuJoCo acts on some body of the model (and would ignore the medium).
-bool StockFluidActs(const mjModel* m) {
-  if (m->opt.density <= 0 && m->opt.viscosity <= 0) return false;
-  for (int body = 1; body < m->nbody; ++body) {
-    if (m->body_mass[body] >= mjMINVAL) return true;
-  }
-  return false;
+StreamDrive WindDrive(const Medium& medium, const mjtNum* state) {
+  return {state + kWindState, state + medium.wind_noise, Seed(state), 1, state[kOn] > 0};
+}
+
+int TurbulenceAddress(const Medium& medium, int vehicle) {
+  return medium.turbulence_state + vehicle * medium.turbulence_size;
+}
+
+// Where a vehicle flies, for turbulence that follows it: at its origin, in the mean wind.
+Followed VehicleAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
+                   const mjtNum* state) {
+  if (!medium.turbulence.follows) return {0, 0};
+  const mjtNum* origin = d->xpos + 3 * body;
+  mjtNum velocity[3], omega[3];
+  FlowSample wind;
+  AddStream(medium.wind, WindDrive(medium, state), d->time, origin[2], &wind);
+  PointVelocity(m, d, body, origin, velocity, omega);
+  return {origin[2] - medium.turbulence.ground, mju_dist3(velocity, wind.velocity)};
+}
+
+// Angular velocity of the flow: half the curl of its velocity.
+void AddHalfCurl(FlowSample* flow) {
+  const mjtNum* g = flow->gradient;  // g[3 i + j] = du_i/dx_j
+  flow->spin[0] += 0.5 * (g[7] - g[5]);
+  flow->spin[1] += 0.5 * (g[2] - g[6]);
+  flow->spin[2] += 0.5 * (g[3] - g[1]);
 }
 
 // The flow of the lower (only) or the upper fluid at a point and the data's time.
-FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower,
+FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower, int body,
                     const mjtNum point_w[3]) {
   const mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
   FlowSample flow;
   if (lower) {
-    AddStream(medium.current, state + kCurrentState, d->time, point_w[2], &flow);
+    AddStream(medium.current, CurrentDrive(medium, state), d->time, point_w[2], &flow);
     AddGrid(medium.current_grid, m, d->time, point_w, &flow);
     AddWaves(medium.waves, d->time, point_w, &flow);
   }
-  if (!lower || !medium.has_surface) {  // one fluid: what is called current and wind add up
-    AddStream(medium.wind, state + kWindState, d->time, point_w[2], &flow);
+  const bool windy = !lower || !medium.has_surface;  // in one fluid current and wind add up
+  if (windy) {
+    AddStream(medium.wind, WindDrive(medium, state), d->time, point_w[2], &flow);
     AddGrid(medium.wind_grid, m, d->time, point_w, &flow);
+  }
+  if (medium.curl) AddHalfCurl(&flow);
+  const int vehicle = medium.vehicle[body];
+  if (windy && medium.turbulence.kind && vehicle >= 0 && state[kOn] > 0) {
+    mjtNum arm[3];
+    const mjtNum* origin = d->xpos + 3 * m->body_rootid[body];
+    for (int i = 0; i < 3; ++i) arm[i] = point_w[i] - origin[i];
+    AddTurbulence(medium.turbulence, Seed(state), vehicle, d->time, point_w[2], arm,
+                  state + TurbulenceAddress(medium, vehicle), &flow);
   }
   return flow;
 }
 
 Flow FluidAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower, mjtNum weight,
-             const mjtNum point_w[3]) {
+             int body, const mjtNum point_w[3]) {
   const int layer = lower ? 0 : 1;
-  const FlowSample sample = SampleAt(medium, m, d, lower, point_w);
+  const FlowSample sample = SampleAt(medium, m, d, lower, body, point_w);
   Flow out;
   out.lower = lower;
   out.weight = weight;
@@ -59,66 +85,6 @@ Flow FluidAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower
 }
 
 }  // namespace
-
-const char* const kMediumAttributes[] = {
-    "surface",        "density",         "viscosity",       "density_above", "viscosity_above",
-    "current",        "current_slew",    "current_profile", "current_datum", "wind",
-    "wind_slew",      "wind_profile",    "wind_datum",      "waves",         "wave_direction",
-    "wave_spreading", "wave_components", "wave_repeat",     "wave_cutoff",   "wave_seed",
-    "water_depth",    "current_grid",    "wind_grid"};
-const int kMediumAttributeCount = sizeof(kMediumAttributes) / sizeof(kMediumAttributes[0]);
-
-bool ReadMedium(const mjModel* m, Medium* medium) {
-  for (int i = 0; i < m->nplugin; ++i) {
-    if (std::strcmp(PluginName(m, i), "fluid_sim.medium") != 0) continue;
-    const Config config(m, i, "model");
-    if (medium->instance >= 0) return config.Fail("two instances; allowed: one per model");
-    medium->instance = i;
-    medium->density[0] = m->opt.density;
-    medium->viscosity[0] = m->opt.viscosity;
-    mju_copy3(medium->current.initial, m->opt.wind);
-    const char* density = "a number >= 0 [kg/m^3]";
-    const char* viscosity = "a number >= 0, dynamic [Pa s]";
-    medium->has_surface = config.Has("surface") && config.Text("surface") != "none";
-    if (medium->has_surface &&
-        !config.Number("surface", -kInfinity, kInfinity, "none or a height in world z [m]",
-                       &medium->surface)) {
-      return false;
-    }
-    if (!config.Number("density", 0, kInfinity, density, &medium->density[0]) ||
-        !config.Number("viscosity", 0, kInfinity, viscosity, &medium->viscosity[0]) ||
-        !config.Number("density_above", 0, kInfinity, density, &medium->density[1]) ||
-        !config.Number("viscosity_above", 0, kInfinity, viscosity, &medium->viscosity[1])) {
-      return false;
-    }
-    if (!medium->has_surface && (config.Has("density_above") || config.Has("viscosity_above"))) {
-      return config.Fail("density_above or viscosity_above without surface; give surface [m]");
-    }
-    medium->wind.slew = 10;
-    medium->current.datum = medium->wind.datum = medium->surface;
-    if (!ReadStream(config, "current", &medium->current) ||
-        !ReadStream(config, "wind", &medium->wind) ||
-        !ReadGrid(config, m, "current_grid", &medium->current_grid) ||
-        !ReadGrid(config, m, "wind_grid", &medium->wind_grid) ||
-        !ReadWaves(config, m, medium->has_surface, medium->surface, &medium->waves)) {
-      return false;
-    }
-    if (medium->current.profile.from_ground() && !config.Has("current_datum")) {
-      return config.Fail("current_profile counts from the bed; give current_datum [m]");
-    }
-    if (StockFluidActs(m)) {
-      if (medium->has_surface || medium->density[0] != m->opt.density ||
-          medium->viscosity[0] != m->opt.viscosity) {
-        return config.Fail(
-            "differs from opt.density or opt.viscosity while MuJoCo's own fluid forces are on; "
-            "set opt density=\"0\" viscosity=\"0\" and drag=\"ellipsoid\" on the bodies");
-      }
-      medium->equal = MovesLikeOptions(*medium, m);
-      medium->corrects_stock = !medium->equal;
-    }
-  }
-  return true;
-}
 
 mjtNum LowerDensity(const Medium& medium, const mjModel* m) {
   return medium.in_charge() ? medium.density[0] : m->opt.density;
@@ -141,7 +107,7 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
     return 1;
   }
   if (!medium.has_surface) {
-    out[0] = FluidAt(medium, m, d, true, 1, point_w);
+    out[0] = FluidAt(medium, m, d, true, 1, body, point_w);
     return 1;
   }
   // a cut body's point may lie in the other fluid: take the flow at the surface then
@@ -152,11 +118,11 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
     if (point_w[2] > medium.surface - medium.waves.reach) {
       point[2] = std::min(point_w[2], SurfaceHeight(medium, d, point_w));
     }
-    out[count++] = FluidAt(medium, m, d, true, wet, point);
+    out[count++] = FluidAt(medium, m, d, true, wet, body, point);
   }
   if (wet < 1) {
     point[2] = std::max(point_w[2], medium.surface);
-    out[count++] = FluidAt(medium, m, d, false, 1 - wet, point);
+    out[count++] = FluidAt(medium, m, d, false, 1 - wet, body, point);
   }
   return count;
 }
@@ -164,6 +130,43 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
 void ResetMediumState(const Medium& medium, mjtNum* state) {
   ResetStream(medium.current, state + kCurrentState);
   ResetStream(medium.wind, state + kWindState);
+  state[kOn] = 1;
+  state[kSeed] = medium.seed;
+  StartMediumNoise(medium, state);
+}
+
+void StartMediumNoise(const Medium& medium, mjtNum* state) {
+  const Stream* streams[] = {&medium.current, &medium.wind};
+  const int noise[] = {medium.current_noise, medium.wind_noise};
+  for (int i = 0; i < 2; ++i) {
+    if (streams[i]->noise.count) StartNoise(streams[i]->noise, Seed(state), i, state + noise[i]);
+  }
+  if (!medium.turbulence.kind) return;
+  const int vehicles = 1 + *std::max_element(medium.vehicle.begin(), medium.vehicle.end());
+  for (int i = 0; i < vehicles; ++i) {
+    StartTurbulence(medium.turbulence, Seed(state), i, state + TurbulenceAddress(medium, i));
+  }
+}
+
+void AdvanceMedium(const Medium& medium, const mjModel* m, mjData* d) {
+  if (!medium.in_charge()) return;
+  mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
+  const Stream* streams[] = {&medium.current, &medium.wind};
+  const int noise[] = {medium.current_noise, medium.wind_noise};
+  for (int i = 0; i < 2; ++i) {
+    if (!streams[i]->noise.count) continue;
+    AdvanceNoise(streams[i]->noise, Seed(state), i, d->time, state + noise[i]);
+  }
+  if (!medium.turbulence.kind) return;
+  int last = -1;
+  for (int body = 1; body < m->nbody; ++body) {
+    const int vehicle = medium.vehicle[body];
+    if (vehicle <= last) continue;
+    last = vehicle;
+    AdvanceTurbulence(medium.turbulence, Seed(state), vehicle, d->time,
+                      VehicleAt(medium, m, d, body, state),
+                      state + TurbulenceAddress(medium, vehicle));
+  }
 }
 
 }  // namespace fluid_sim

@@ -8,9 +8,12 @@
 
 #include <mujoco/mujoco.h>
 
+#include <vector>
+
 #include "flow_sample.h"
 #include "grid.h"
 #include "stream.h"
+#include "turbulence.h"
 #include "waves.h"
 
 namespace fluid_sim {
@@ -26,8 +29,15 @@ struct Flow {
   mjtNum spin[3];          // rotational gust, world [rad/s]
 };
 
-// Where plugin_state holds the run-time velocities.
-enum MediumState { kCurrentState = 0, kWindState = kStreamState, kMediumState = 2 * kStreamState };
+// Where plugin_state holds what: the means, whether signals and noise act (1 or 0), the seed; then
+// the processes of current and wind, then turbulence, vehicle by vehicle.
+enum MediumState {
+  kCurrentState = 0,
+  kWindState = kStreamState,
+  kOn = 2 * kStreamState,
+  kSeed,
+  kNoiseState
+};
 
 struct Medium {
   int instance = -1;            // plugin instance, or -1: the model has none, opt.* holds
@@ -39,6 +49,13 @@ struct Medium {
   mjtNum viscosity[2] = {0, 0};  // below, above [Pa s]
   Stream current, wind;
   Grid current_grid, wind_grid;
+  Turbulence turbulence;     // of the wind
+  bool curl = false;         // rotational gusts are half the curl of current and wind
+  mjtNum seed = 0;           // of all noise
+  std::vector<int> vehicle;  // of each body, or -1 for what stands still
+  // addresses in the state: of the processes, and of the first vehicle's turbulence
+  int current_noise = 0, wind_noise = 0, turbulence_state = 0;
+  int turbulence_size = 0;  // per vehicle
   Waves waves;
 
   bool in_charge() const { return instance >= 0 && !equal; }
@@ -63,8 +80,17 @@ mjtNum SurfaceHeight(const Medium& medium, const mjData* d, const mjtNum point_w
 int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
             const mjtNum point_w[3], mjtNum wet, Flow out[2]);
 
-// State of the two streams at the start: the configured velocities, reached long ago.
+// Size of the state, from the keys and the bodies alone.
+int MediumStateSize(const mjModel* m, int instance);
+
+// State at the start: the configured velocities, reached long ago; noise at time 0.
 void ResetMediumState(const Medium& medium, mjtNum* state);
+
+// All noise at time 0, with the seed in the state.
+void StartMediumNoise(const Medium& medium, mjtNum* state);
+
+// Draw the noise that the step from the data's time on needs.
+void AdvanceMedium(const Medium& medium, const mjModel* m, mjData* d);
 
 }  // namespace fluid_sim
 

@@ -20,6 +20,16 @@ inline void AddCross(mjtNum out[3], const mjtNum b[3], const mjtNum c[3]) {
   out[2] += b[0] * c[1] - b[1] * c[0];
 }
 
+// out += s b
+inline void AddScaled3(mjtNum out[3], const mjtNum b[3], mjtNum s) {
+  for (int i = 0; i < 3; ++i) out[i] += s * b[i];
+}
+
+// out += a - b
+inline void AddDifference3(mjtNum out[3], const mjtNum a[3], const mjtNum b[3]) {
+  for (int i = 0; i < 3; ++i) out[i] += a[i] - b[i];
+}
+
 // out = R x and out = R' x
 inline void Rotate(mjtNum out[3], const mjtNum r[9], const mjtNum x[3]) {
   for (int i = 0; i < 3; ++i) out[i] = r[3 * i] * x[0] + r[3 * i + 1] * x[1] + r[3 * i + 2] * x[2];

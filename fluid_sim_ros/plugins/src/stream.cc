@@ -1,12 +1,42 @@
 #include "stream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "spatial.h"
 
 namespace fluid_sim {
 namespace {
 
 constexpr mjtNum kInfinity = std::numeric_limits<mjtNum>::infinity();
+constexpr int kAxes = 3;
+
+bool IsZero3(const mjtNum x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
+
+// sigma^2 exp(-|t|/T) per axis: x' = -x/T + sqrt(2/T) n.
+bool ReadGaussMarkov(const Config& config, const std::string& name, ColouredNoise* noise) {
+  const std::string key = name + "_gauss_markov", tick = name + "_tick";
+  const char* allowed = "SX SY SZ TIME (>= 0 [m/s], TIME > 0 [s])";
+  std::vector<mjtNum> numbers;
+  noise->tick = 0.1;
+  noise->outputs = kAxes;
+  if (!config.Numbers(key.c_str(), {4}, allowed, &numbers) ||
+      !config.Number(tick.c_str(), mjMINVAL, kInfinity, "a number > 0 [s]", &noise->tick)) {
+    return false;
+  }
+  if (numbers.empty()) return true;
+  if (*std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[3] <= 0) {
+    return config.Refuse(key.c_str(), allowed);
+  }
+  const mjtNum a[1] = {-1 / numbers[3]}, b[1] = {std::sqrt(2 / numbers[3])};
+  for (int i = 0; i < kAxes; ++i) {
+    Filter* f = AddFilter(noise, 1, a, b);
+    f->output[0] = i;
+    f->weight[0][0] = numbers[i];
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -19,30 +49,51 @@ bool ReadStream(const Config& config, const std::string& name, Stream* stream) {
                        &stream->slew) &&
          config.Number(datum.c_str(), -kInfinity, kInfinity, "a height in world z [m]",
                        &stream->datum) &&
-         stream->profile.Parse(config, profile.c_str());
+         stream->profile.Parse(config, profile.c_str()) &&
+         ReadSignals(config, (name + "_signal").c_str(), &stream->signals) &&
+         ReadSeries(config, (name + "_series").c_str(), &stream->series) &&
+         ReadGaussMarkov(config, name, &stream->noise);
+}
+
+int StreamNoiseSize(const Config& config, const std::string& name) {
+  return config.Has((name + "_gauss_markov").c_str()) ? NoiseStateSize(kAxes, kAxes) : 0;
 }
 
 // u = U(t) f(z - datum), du/dt = U' f, du/dz = U f'
-void AddStream(const Stream& stream, const mjtNum* state, mjtNum time, mjtNum z, FlowSample* flow) {
+void AddStream(const Stream& stream, const StreamDrive& drive, mjtNum time, mjtNum z,
+               FlowSample* flow) {
+  if (stream.mean_only() && IsZero3(drive.mean + kTarget) && IsZero3(drive.mean + kStart)) return;
   mjtNum velocity[3], derivative[3];
-  StreamVelocity(stream, state, time, velocity, derivative);
+  StreamVelocity(stream, drive.mean, time, velocity, derivative);
+  if (drive.on) {
+    for (const Signal& signal : stream.signals) AddSignal(signal, time, velocity, derivative);
+    AddSeries(stream.series, time, velocity, derivative);
+    if (stream.noise.count) {
+      mjtNum value[kAxes], rate[kAxes];
+      SampleNoise(stream.noise, drive.seed, drive.id, time, drive.noise, value, rate);
+      mju_addTo3(velocity, value);
+      mju_addTo3(derivative, rate);
+    }
+  }
   const ProfileValue profile = stream.profile.At(z - stream.datum);
-  mju_addToScl3(flow->velocity, velocity, profile.factor);
-  mju_addToScl3(flow->rate, derivative, profile.factor);
+  AddScaled3(flow->velocity, velocity, profile.factor);
+  AddScaled3(flow->rate, derivative, profile.factor);
   for (int i = 0; i < 3; ++i) flow->gradient[3 * i + 2] += velocity[i] * profile.slope;
 }
 
 void StreamVelocity(const Stream& stream, const mjtNum* state, mjtNum time, mjtNum velocity[3],
                     mjtNum derivative[3]) {
   mjtNum way[3];
-  mju_sub3(way, state + kTarget, state + kStart);
-  const mjtNum distance = mju_norm3(way);
   const mjtNum elapsed = std::max<mjtNum>(time - state[kStartTime], 0);
-  mju_zero3(derivative);
-  if (distance <= 0 || stream.slew <= 0 || elapsed * stream.slew >= distance) {
-    mju_copy3(velocity, state + kTarget);
-    return;
+  for (int i = 0; i < 3; ++i) {
+    velocity[i] = state[kTarget + i];
+    derivative[i] = 0;
+    way[i] = velocity[i] - state[kStart + i];
   }
+  const mjtNum square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+  if (square <= 0 || stream.slew <= 0) return;
+  const mjtNum distance = std::sqrt(square);
+  if (elapsed * stream.slew >= distance) return;
   mju_scl3(derivative, way, stream.slew / distance);
   mju_copy3(velocity, state + kStart);
   mju_addToScl3(velocity, derivative, elapsed);

@@ -1,7 +1,7 @@
-// The mean wind or current: a run-time velocity U(t) times a profile over the height.
+// A wind or a current: (mean + signals + Gauss-Markov process) times a profile over the height.
 //
-// U follows a target at a limited rate, in closed form, so that its time derivative is exact and
-// the state is a pure function of time between two changes of the target.
+// The mean follows a run-time target at a limited rate, in closed form, so that its time
+// derivative is exact and the state is a pure function of time between two changes of the target.
 
 #ifndef FLUID_SIM_STREAM_H_
 #define FLUID_SIM_STREAM_H_
@@ -9,10 +9,13 @@
 #include <mujoco/mujoco.h>
 
 #include <string>
+#include <vector>
 
+#include "coloured_noise.h"
 #include "config.h"
 #include "flow_sample.h"
 #include "profile.h"
+#include "signal.h"
 
 namespace fluid_sim {
 
@@ -24,13 +27,31 @@ struct Stream {
   mjtNum slew = 1;                // [m/s^2]; 0: no limit, a change is a step
   mjtNum datum = 0;               // world z from which the profile counts its height [m]
   Profile profile;
+  std::vector<Signal> signals;
+  Series series;
+  ColouredNoise noise;  // 3 outputs [m/s]; without filters: none
+
+  // Nothing but the mean.
+  bool mean_only() const { return signals.empty() && series.times.empty() && !noise.count; }
 };
 
-// Read the keys NAME, NAME_slew, NAME_profile, NAME_datum; false after one line of explanation.
+// Read the keys NAME and NAME_*; false after one line of explanation.
 bool ReadStream(const Config& config, const std::string& name, Stream* stream);
 
+// Numbers in plugin_state for the Gauss-Markov process, from the keys alone.
+int StreamNoiseSize(const Config& config, const std::string& name);
+
+// Where a stream's numbers are, and who draws its noise.
+struct StreamDrive {
+  const mjtNum* mean;   // kStreamState numbers
+  const mjtNum* noise;  // of ColouredNoise
+  std::uint64_t seed, id;
+  bool on;  // signals and noise act
+};
+
 // Add the stream at the time and the height z to the flow.
-void AddStream(const Stream& stream, const mjtNum* state, mjtNum time, mjtNum z, FlowSample* flow);
+void AddStream(const Stream& stream, const StreamDrive& drive, mjtNum time, mjtNum z,
+               FlowSample* flow);
 
 // Run-time velocity at a time and its derivative [m/s], [m/s^2].
 void StreamVelocity(const Stream& stream, const mjtNum* state, mjtNum time, mjtNum velocity[3],

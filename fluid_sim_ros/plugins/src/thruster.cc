@@ -133,7 +133,7 @@ void ApplyActuators(const mjModel* m, mjData* d, const Thruster& t) {
   mjtNum* torque = t.torque >= 0 ? d->actuator_force + m->actuator_outadr[t.torque] : &none;
   *thrust = *torque = 0;
   if (IsOff(m, t.thrust)) return;
-  const RotorLoad load = EvaluateThruster(m, d, t);
+  const RotorLoad load = EvaluateThruster(m, d, t, false);
   *thrust = load.thrust;
   *torque = -t.spin * (load.torque + t.inertia * load.rate);
 }
@@ -190,8 +190,9 @@ mjtNum CommandedSpeed(const Thruster& t, mjtNum command, bool* saturated) {
   return SpeedForThrust(t.curve, thrust, t.limit[thrust < 0 ? 1 : 0]);
 }
 
-RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t) {
+RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t, bool drag) {
   RotorLoad out;
+  const bool needs_flow = t.thrust_needs_flow() || (drag && t.has_drag());
   const mjtNum command = ReadCommand(m, d, t.thrust, &out.saturated);
   out.target = CommandedSpeed(t, command, &out.saturated);
   const LaggedSpeed speed = PresentSpeed(m, d, t, out.target);
@@ -203,14 +204,14 @@ RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t)
   Rotate(axis_w, d->site_xmat + 9 * t.site, t.axis);
   mjtNum ground = 1;
   if (out.omega > 0) ground = GroundFactor(t, d->site_xpos[3 * t.site + 2], axis_w[2]);
-  if (t.needs_flow() || t.inertia > 0) {
+  if (needs_flow || t.inertia > 0) {
     PointVelocity(m, d, t.body, d->site_xpos + 3 * t.site, velocity, spin_w);
   }
   if (t.inertia > 0) {  // the rotor's angular momentum J s omega turns with the body
     mju_cross(out.gyro_w, axis_w, spin_w);
     mju_scl3(out.gyro_w, out.gyro_w, t.inertia * t.spin * out.omega);
   }
-  if (!t.needs_flow()) {
+  if (!needs_flow) {
     out.thrust = ground * at_rest;
     out.torque = torque;
     return out;

@@ -46,9 +46,9 @@ struct Thruster {
   Medium medium;  // constants only; its state is in mjData
 
   bool passive() const { return inertia > 0 || drag[0] > 0 || drag[1] > 0 || rolling > 0; }
-  bool needs_flow() const {
-    return curve.kind == Curve::kCoefficients || works != Works::kConstant || drag[0] > 0 ||
-           drag[1] > 0 || rolling > 0;
+  bool has_drag() const { return drag[0] > 0 || drag[1] > 0 || rolling > 0; }
+  bool thrust_needs_flow() const {
+    return curve.kind == Curve::kCoefficients || works != Works::kConstant;
   }
 };
 
@@ -75,8 +75,10 @@ bool ReadThruster(const mjModel* m, int instance, Thruster* out);
 // Speed that a command asks for [rad/s]; tells whether it was beyond what the thruster can do.
 mjtNum CommandedSpeed(const Thruster& thruster, mjtNum command, bool* saturated);
 
-// From the command, activation, positions and velocities in d.
-RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& thruster);
+// From the command, activation, positions and velocities in d; without `drag` only what thrust and
+// torque take.
+RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& thruster,
+                           bool drag = true);
 
 // The thruster that an actuator belongs to, or null.
 const Thruster* FindThruster(const mjModel* m, const mjData* d, int actuator);

@@ -1,0 +1,41 @@
+"""``fluid_sim doctor SCENE``: whether a scene loads, and how wind and current reach its bodies."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.doctor import Row
+from fluid_sim_ros.errors import FluidSimError, listed
+from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.weather import MEDIUM, OPTION
+
+_ROADS = {
+    OPTION: 'one velocity for the whole scene',
+    MEDIUM: 'each body meets the flow of its place and time',
+}
+
+
+def examine_scene(scene: str | Path) -> list[Row]:
+    """Load a scene and say what its flow is made of."""
+    try:
+        simulation = Simulation(scene)
+    except FluidSimError as error:
+        return [Row('scene', 'broken', str(error), 'mend the named file')]
+    road = simulation.flow_road
+    stated = simulation.scene
+    return [
+        Row('scene', 'ok', f'{stated.name}, {stated.model_path.name}'),
+        Row('vehicles', 'ok', listed(simulation.vehicles)),
+        Row('flow', 'ok', f'{road}: {_ROADS[road]}'),
+        *(
+            Row(name, 'ok', _models(getattr(stated, name)))
+            for name in simulation.streams
+        ),
+    ]  # fmt: skip
+
+
+def _models(models: Sequence[Any]) -> str:
+    names = ' + '.join(model.model for model in models)
+    if any(getattr(model, 'follow_vehicle', False) for model in models):
+        names += ' (follows the vehicle: gusts depend on the flight)'
+    return names or 'as the model states, or by topic'

@@ -1,0 +1,124 @@
+"""
+Coloured noise on a fixed tick: linear filters of white noise, discretised exactly.
+
+x' = A x + b n(t) with white noise n of unit intensity. Sampled every h seconds,
+x+ = exp(A h) x + root N with standard normal N and root root' = Q(h), it has exactly the
+covariance of the continuous process. Between the ticks a cubic gives a value with an exact
+derivative.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import expm, solve_continuous_lyapunov
+
+from fluid_sim_ros.physics.arrays import Array
+
+
+@dataclass(frozen=True)
+class NoiseFilter:
+    """
+    One filter and what it adds to the outputs.
+
+    Attributes
+    ----------
+    a, b
+        Of x' = A x + b n, shapes (n, n) and (n,) [1/s], [s^-1/2].
+    outputs
+        Output index -> weights of x, shape (n,).
+
+    """
+
+    a: Array
+    b: Array
+    outputs: dict[int, Array]
+
+
+def stationary_covariance(a: ArrayLike, b: ArrayLike) -> Array:
+    """Return P of A P + P A' + b b' = 0."""
+    drift, noise = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    covariance: Array = solve_continuous_lyapunov(drift, -np.outer(noise, noise))
+    return covariance
+
+
+def discretise(a: ArrayLike, b: ArrayLike, tick: float) -> tuple[Array, Array]:
+    """
+    Return exp(A h) and the covariance Q(h) of what the noise brings in one tick.
+
+    Van Loan (1978), IEEE Trans. Automatic Control 23:395: both stand in the exponential of
+    [[-A, b b'], [0, A']] h.
+    """
+    drift, noise = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    n = len(noise)
+    block = np.zeros((2 * n, 2 * n))
+    block[:n, :n], block[:n, n:], block[n:, n:] = -drift, np.outer(noise, noise), drift.T
+    exponential = expm(block * tick)
+    phi: Array = exponential[n:, n:].T
+    return phi, phi @ exponential[:n, n:]
+
+
+def normal_numbers(seed: int, stream: int, ticks: int, count: int) -> Array:
+    """
+    Return the standard normal numbers of the first ticks, shape (ticks, count).
+
+    Counter-based: Philox4x64-10 (Salmon et al. 2011) with the key (seed, stream), the counter
+    running on through the ticks in blocks of four words, and Box and Muller's transform.
+    """
+    blocks = -(-count // 4)
+    # numpy's generator advances its counter before the first block: start one before 0
+    start = np.full(4, 2**64 - 1, dtype=np.uint64)
+    generator = np.random.Philox(key=np.array([seed, stream], dtype=np.uint64), counter=start)
+    words = generator.random_raw(4 * blocks * ticks).reshape(ticks, blocks, 2, 2)
+    uniform = ((words >> np.uint64(11)) + np.uint64(1)) * 2.0**-53
+    radius, angle = np.sqrt(-2 * np.log(uniform[..., 0])), 2 * np.pi * uniform[..., 1]
+    normal = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1)
+    numbers: Array = normal.reshape(ticks, 4 * blocks)[:, :count]
+    return numbers
+
+
+def noise_samples(
+    filters: Sequence[NoiseFilter], outputs: int, tick: float, seed: int, stream: int, ticks: int
+) -> Array:
+    """
+    Return the outputs at the ticks -1, 0, 1, ..., shape (ticks, outputs).
+
+    The sample at tick -1 is drawn from the stationary distribution.
+    """
+    states = sum(len(f.b) for f in filters)
+    normal = normal_numbers(seed, stream, ticks, states)
+    samples = np.zeros((ticks, outputs))
+    first = 0
+    for f in filters:
+        n = len(f.b)
+        phi, covariance = discretise(f.a, f.b, tick)
+        root = np.linalg.cholesky(covariance)
+        kicks = normal[:, first : first + n] @ root.T
+        x = np.linalg.cholesky(stationary_covariance(f.a, f.b)) @ normal[0, first : first + n]
+        states_x = np.empty((ticks, n))
+        states_x[0] = x
+        for k in range(1, ticks):
+            states_x[k] = x = phi @ x + kicks[k]
+        for output, weights in f.outputs.items():
+            samples[:, output] += states_x @ weights
+        first += n
+    return samples
+
+
+def between_ticks(samples: ArrayLike, tick: float, time: float) -> tuple[Array, Array]:
+    """
+    Return value and derivative at a time >= 0 from the samples at the ticks -1, 0, 1, ...
+
+    Catmull-Rom: the cubic whose slopes at both ends are (next - previous) / 2 h. The derivative is
+    continuous. Fourth-order methods keep their order where steps begin at ticks.
+    """
+    held = np.asarray(samples, dtype=np.float64)
+    k = int(np.floor(time / tick))
+    s = time / tick - k
+    p0, p1, p2, p3 = held[k : k + 4]
+    m1, m2 = (p2 - p0) / 2, (p3 - p1) / 2
+    c2, c3 = 3 * (p2 - p1) - 2 * m1 - m2, 2 * (p1 - p2) + m1 + m2
+    value: Array = p1 + s * (m1 + s * (c2 + s * c3))
+    rate: Array = (m1 + s * (2 * c2 + 3 * s * c3)) / tick
+    return value, rate
