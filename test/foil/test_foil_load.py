@@ -11,6 +11,7 @@ from mujoco.batch import Batch
 from plugin_common import config, load, refusal
 
 from fluid_sim_ros.physics.foil import WingParams, wing_wrench
+from fluid_sim_ros.physics.waves import regular_waves, wave_flow
 from fluid_sim_ros.plugins.native import native
 
 WING = {'span': 1.0, 'chord': 0.2}
@@ -131,6 +132,24 @@ def test_across_the_surface_the_panels_share(height):
     alone, _ = wing_wrench(WingParams(area=0.04, span=0.4, chord=0.1), [2, 0, -0.2], density=1)
     wanted = -alone[2] * (1000 * wet + 1.2 * (1 - wet))
     assert found == pytest.approx(wanted, rel=0.01)
+
+
+def test_a_wave_wets_a_rudder_and_moves_past_it():
+    """Under a crest at the mean level: water everywhere, and its orbital velocity as inflow."""
+    values = {'span': 0.04, 'chord': 0.02, 'panels': 1}
+    sea = SEA | {'waves': 'regular 1 6', 'wave_direction': [0, 1]}
+    option = 'timestep=".01" integrator="RK4" gravity="0 0 -9.81"'
+    model, data = load(foil_world(values, site='euler="90 0 0"', medium=sea, option=option))
+    data.qvel[0] = 2
+    found = generalized(model, data)[1]
+    along = wave_flow(regular_waves(1, 6, [0, 1]), [0, 0, 0], 0.0).velocity[1]
+    assert along == pytest.approx(0.5 * 2 * np.pi / 6)
+    # relative to the water the rudder slides to -y, its own z: lift towards +y
+    wing = WingParams(area=0.0008, span=0.04, chord=0.02)
+    alone, _ = wing_wrench(wing, [2, 0, along], density=1000)
+    assert found == pytest.approx(-alone[2], rel=1e-9)
+    data.time = 3.0  # the trough: dry
+    assert abs(generalized(model, data)[1]) < 0.01 * found
 
 
 @pytest.mark.parametrize('integrator', ['RK4', 'implicitfast', 'Euler'])

@@ -216,3 +216,19 @@ def test_reading_other_actuators():
         for i in (-1, 0, 1, 2, 3)
     ]
     assert kinds == [0, 1, 2, 0, 0]
+
+
+def test_a_wave_covers_and_bares_a_propeller():
+    """At the mean level: wet under the crest, half under the zero crossing, dry in the trough."""
+    values = {
+        'curve': 'quadratic', 'thrust_coefficient': 4e-4, 'rad_s_max': [400, 400],
+        'command': 'newton', 'fluid': 'water', 'diameter': 0.1,
+    }  # fmt: skip
+    sea = SEA | {'waves': 'regular 1 6', 'wind': [0, 0, 0]}
+    option = 'timestep="0.01" integrator="implicitfast" gravity="0 0 -9.81"'
+    model, data = load(rotor_world(values, axis='1 0 0', medium=sea, option=option))
+    for data.time, share in ((0.0, 1.0), (1.5, 0.5), (3.0, 0.0), (1.49, None)):
+        if share is None:
+            share = propulsion.disc_share(0.5 * np.cos(2 * np.pi * 1.49 / 6), 0.05, 0.0)
+            assert 0.5 < share < 0.7
+        assert settle(model, data, 20)['thrust'] == pytest.approx(20 * share, abs=1e-9)
