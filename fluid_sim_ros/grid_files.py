@@ -1,13 +1,14 @@
 """Reads gridded winds and currents from NPZ and NetCDF files; a fault is one line."""
 
+import base64
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import netcdf_file
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.grid import AXES, Grid, checked_grid
@@ -70,6 +71,8 @@ def _from_npz(path: Path) -> dict[str, Array]:
 
 
 def _from_netcdf(path: Path) -> dict[str, Array]:
+    from scipy.io import netcdf_file  # late: it takes longer to load than all of ours
+
     with path.open('rb') as file:
         if file.read(len(_HDF5)) == _HDF5:
             raise ConfigError('is NetCDF-4; write it as classic: nccopy -k classic IN OUT')
@@ -142,3 +145,24 @@ def grid_numbers(grid: Grid) -> Array:
     """Return a grid as the numbers that a <numeric> holds for fluid_sim.medium."""
     sizes = np.array([axis.size for axis in grid.axes], dtype=np.float64)
     return np.concatenate([sizes, *grid.axes, grid.velocity.ravel()])
+
+
+def pack(grid: Grid) -> str:
+    """Return a grid as text, to the bit: what a scene holds of its file."""
+    return base64.b64encode(zlib.compress(grid_numbers(grid).astype('<f8').tobytes())).decode()
+
+
+def unpack(text: str) -> Array:
+    """
+    Return the numbers of a packed grid.
+
+    Raises
+    ------
+    ConfigError
+        If the text is none.
+
+    """
+    try:
+        return np.frombuffer(zlib.decompress(base64.b64decode(text)), '<f8').astype(np.float64)
+    except (ValueError, zlib.error) as error:
+        raise ConfigError(f'data of a grid: {error}') from None

@@ -19,7 +19,7 @@ from fluid_sim_ros.schema import parse, read_yaml
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
 from fluid_sim_ros.wave_schema import Waves
 from fluid_sim_ros.weather import apply_weather
-from fluid_sim_ros.weather_files import with_series
+from fluid_sim_ros.weather_files import with_files
 from fluid_sim_ros.weather_schema import CurrentModel, WindModel
 
 INTEGRATORS = {
@@ -230,8 +230,8 @@ def _from_yaml(path: Path) -> Scene:
         keyframe=content.keyframe,
         home=content.home,
         waves=content.waves,
-        wind=with_series(content.wind, path.parent),
-        current=with_series(content.current, path.parent),
+        wind=with_files(content.wind, path.parent),
+        current=with_files(content.current, path.parent),
         schedule=tuple(content.schedule),
         gait=content.gait,
         vehicles=vehicles,

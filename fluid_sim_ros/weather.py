@@ -7,10 +7,12 @@ from typing import Any
 import mujoco
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.grid_files import unpack
 from fluid_sim_ros.weather_schema import (
     MEANS,
     TIDES,
     GaussMarkov,
+    GridFile,
     Gust,
     Logarithmic,
     PowerLaw,
@@ -29,6 +31,7 @@ _AT_MOST_ONE: dict[str, tuple[type[Any], ...]] = {
     'series': (Series,),
     'Gauss-Markov process': (GaussMarkov,),
     'turbulence': (Turbulence,),
+    'grid': (GridFile,),
 }
 
 MEDIUM = 'fluid_sim.medium'
@@ -75,6 +78,15 @@ def apply_weather(
         spec.activate_plugin(MEDIUM)
         plugin = spec.add_plugin(name='weather', plugin_name=MEDIUM, active=True)
     plugin.config = {**plugin.config, **keys, 'seed': str(seed)}
+    _add_grids(spec, 'wind', wind)
+    _add_grids(spec, 'current', current)
+
+
+def _add_grids(spec: mujoco.MjSpec, stream: str, models: Sequence[Any]) -> None:
+    for model in models:
+        if isinstance(model, GridFile):
+            numbers = unpack(str(model.data))
+            spec.add_numeric(name=f'{stream}_grid', data=numbers, size=len(numbers))
 
 
 def _keys(stream: str, models: Sequence[Any], where: str) -> dict[str, str]:
@@ -87,6 +99,8 @@ def _keys(stream: str, models: Sequence[Any], where: str) -> dict[str, str]:
             keys |= _mean(stream, model)
         elif isinstance(model, Series):
             keys[f'{stream}_series'] = _series(model)
+        elif isinstance(model, GridFile):
+            keys[f'{stream}_grid'] = f'{stream}_grid'
         elif isinstance(model, GaussMarkov):
             keys[f'{stream}_gauss_markov'] = _words([*model.sigma, model.time_constant])
             keys[f'{stream}_tick'] = _words([model.tick])

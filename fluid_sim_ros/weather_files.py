@@ -1,4 +1,4 @@
-"""Reads the CSV files that a scene's weather names; a fault is one line with file and row."""
+"""Reads the files that a scene's weather names; a fault is one line with file and row."""
 
 import csv
 import math
@@ -6,25 +6,26 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.weather_schema import Series
+from fluid_sim_ros.grid_files import pack, read_grid
+from fluid_sim_ros.weather_schema import GridFile, Series
 
 COLUMNS = ('t', 'x', 'y', 'z')
 
 
-def with_series(models: list[Any], folder: Path) -> tuple[Any, ...]:
-    """Return the models with the rows of their CSV files (paths relative to ``folder``)."""
-    return tuple(
-        _read(model, folder) if isinstance(model, Series) and model.times is None else model
-        for model in models
-    )
+def with_files(models: list[Any], folder: Path) -> tuple[Any, ...]:
+    """Return the models with the content of their files (paths relative to ``folder``)."""
+    return tuple(_with_file(model, folder) for model in models)
 
 
-def _read(series: Series, folder: Path) -> Series:
-    path = folder / str(series.file)
-    rows = read_csv(path)
-    return series.model_copy(
-        update={'times': [row[0] for row in rows], 'velocities': [row[1:] for row in rows]}
-    )
+def _with_file(model: Any, folder: Path) -> Any:
+    if isinstance(model, Series) and model.times is None:
+        rows = read_csv(folder / str(model.file))
+        return model.model_copy(
+            update={'times': [row[0] for row in rows], 'velocities': [row[1:] for row in rows]}
+        )
+    if isinstance(model, GridFile) and model.data is None:
+        return model.model_copy(update={'data': pack(read_grid(folder / model.file))})
+    return model
 
 
 def read_csv(path: Path) -> list[list[float]]:

@@ -169,6 +169,25 @@ class Series(Strict):
         return self
 
 
+class GridFile(Strict):
+    """
+    A flow u(t, x, y, z) on a rectilinear grid: an NPZ or NetCDF ``file`` (grid_files.py).
+
+    Linear between the points; beyond the grid the value at its edge holds. ``data`` is the packed
+    content of the file, which a log holds instead of it.
+    """
+
+    model: Literal['grid']
+    file: str = ''
+    data: str | None = None
+
+    @model_validator(mode='after')
+    def _some_source(self) -> Self:
+        if not self.file and self.data is None:
+            raise ValueError('needs a file')
+        return self
+
+
 # ---- random processes; the seed is the simulation's ---------------------------------------------
 
 
@@ -237,13 +256,23 @@ WindModel = Annotated[
     | Sine
     | Gust
     | Series
+    | GridFile
     | GaussMarkov
     | Dryden
     | VonKarman,
     Field(discriminator='model'),
 ]
 CurrentModel = Annotated[
-    Steady | PowerLaw | Logarithmic | Stratified | Ramp | Sine | Tide | Series | GaussMarkov,
+    Steady
+    | PowerLaw
+    | Logarithmic
+    | Stratified
+    | Ramp
+    | Sine
+    | Tide
+    | Series
+    | GridFile
+    | GaussMarkov,
     Field(discriminator='model'),
 ]
 

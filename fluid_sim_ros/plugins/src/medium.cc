@@ -46,20 +46,21 @@ void AddHalfCurl(FlowSample* flow) {
 FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower, int body,
                     const mjtNum point_w[3]) {
   const mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
+  const bool on = state[kOn] > 0;
   FlowSample flow;
   if (lower) {
     AddStream(medium.current, CurrentDrive(medium, state), d->time, point_w[2], &flow);
-    AddGrid(medium.current_grid, m, d->time, point_w, &flow);
+    if (on) AddGrid(medium.current_grid, m, d->time, point_w, &flow);
     AddWaves(medium.waves, d->time, point_w, &flow);
   }
   const bool windy = !lower || !medium.has_surface;  // in one fluid current and wind add up
   if (windy) {
     AddStream(medium.wind, WindDrive(medium, state), d->time, point_w[2], &flow);
-    AddGrid(medium.wind_grid, m, d->time, point_w, &flow);
+    if (on) AddGrid(medium.wind_grid, m, d->time, point_w, &flow);
   }
   if (medium.curl) AddHalfCurl(&flow);
   const int vehicle = medium.vehicle[body];
-  if (windy && medium.turbulence.kind && vehicle >= 0 && state[kOn] > 0) {
+  if (windy && medium.turbulence.kind && vehicle >= 0 && on) {
     mjtNum arm[3];
     const mjtNum* origin = d->xpos + 3 * m->body_rootid[body];
     for (int i = 0; i < 3; ++i) arm[i] = point_w[i] - origin[i];
