@@ -2,7 +2,7 @@
 A current on a grid: a neutral body in an eddy against the exact path, over the spacing; its cost.
 
 The eddy is u = curl of psi = U L exp(-r^2/2L^2), steady; the body has no drag, so it must move
-with the water. Cost per step with a grid over all of t, x, y, z, as a ratio to none within one run.
+with the water. Cost per step with a grid over t, x, y, z, as a ratio to none within one run.
 Run: ``python benchmarks/grid.py [--quick] [--json PATH]``.
 """
 
