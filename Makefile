@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-full bench lint format docs clean setup-demo setup-test setup-dev
+.PHONY: help demo test test-full bench lint format docs clean setup-demo setup-test setup-bench setup-dev
 
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
@@ -20,7 +20,7 @@ help:
 	@echo 'make docs       write the tables of the documentation; check its links and pictures'
 	@echo 'make clean      remove what was built (.venv stays; rm -r .venv removes that)'
 
-setup-demo setup-test setup-dev: setup-%:
+setup-demo setup-test setup-bench setup-dev: setup-%:
 	@.ci/venv $*
 
 demo: setup-demo
@@ -29,11 +29,11 @@ demo: setup-demo
 test: setup-test
 	@$(PYTEST) $(ARGS)
 
-test-full: setup-test
+test-full: setup-bench
 	@FLUID_SIM_FULL=1 $(PYTEST) -m 'full or not full'
 	@.ci/bench full
 
-bench: setup-test
+bench: setup-bench
 	@.ci/bench $(if $(FULL),full,quick)
 
 lint: setup-dev

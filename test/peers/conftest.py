@@ -1,0 +1,6 @@
+"""These tests run a small part of benchmarks/peers.py, with what of the peers is installed."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / 'benchmarks'))
