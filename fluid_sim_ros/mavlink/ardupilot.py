@@ -22,12 +22,16 @@ from fluid_sim_ros.mavlink.json_packets import (
 from fluid_sim_ros.mavlink.mapping import ActuatorMap
 from fluid_sim_ros.mavlink.sockets import UdpPort
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
+from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
 
 #: Port of the first instance, and from one instance to the next.
 FIRST_PORT, PORT_STEP = 9002, 10
 #: Longest wait at a time [s], so that requests of other threads are served.
 _SLICE = 0.05
+#: What a rangefinder without an echo says [m].
+_OUT_OF_RANGE = 1000.0
 
 
 class ArduPilotBridge:
@@ -67,6 +71,8 @@ class ArduPilotBridge:
         self._actuators = actuators
         self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
         self._truth = TruthReader(simulation, options.vehicle)
+        self._simulation = simulation
+        self._suite = _sensors(simulation, options.vehicle)
         self._aerial = simulation.streams == ('wind',)
         self._longest = exact(simulation.timestep)
         port = options.port or FIRST_PORT + PORT_STEP * options.instance
@@ -139,16 +145,27 @@ class ArduPilotBridge:
 
     # ---- one frame -------------------------------------------------------------------------
 
-    def _answer(self, simulation: Simulation) -> None:
+    def state(self, time_ns: int) -> JsonState:
+        """Return what the autopilot gets to know of the present state."""
         truth = self._truth.read(forces=True)
-        self._sent_ns = simulation.time_ns + self._offset_ns
-        self._reply = write_state(
-            JsonState(
-                self._sent_ns, truth.rates, truth.specific_force, truth.position_ned,
-                truth.velocity_ned, truth.attitude,
-                wind=truth.air_ned if self._aerial else None,
-            )
+        return JsonState(
+            time_ns, truth.rates, truth.specific_force, truth.position_ned, truth.velocity_ned,
+            truth.attitude, truth.air_ned if self._aerial else None, *self._measure(),
         )  # fmt: skip
+
+    def _measure(self) -> tuple[float | None, float | None]:
+        """Return airspeed and distance to the ground where the vehicle has sensors for them."""
+        suite, simulation = self._suite, self._simulation
+        for sensor in suite.sensors:  # the state was observed for the truth
+            sensor.update(simulation.tick, simulation.time_ns)
+        airspeed = suite.airspeed.airspeed if suite.airspeed else None
+        if suite.rangefinder is None:
+            return airspeed, None
+        return airspeed, min(max(suite.rangefinder.distance, 0.0), _OUT_OF_RANGE)
+
+    def _answer(self, simulation: Simulation) -> None:
+        self._sent_ns = simulation.time_ns + self._offset_ns
+        self._reply = write_state(self.state(self._sent_ns))
         self._owed = False
         self.counters.sent += 1
         self._port.send(self._reply, self._peer)
@@ -235,6 +252,17 @@ class ArduPilotBridge:
             self._surroundings.report(
                 'gone', f'ArduPilot: nothing for {self._timeout:g} s; waiting on port {self.port}'
             )
+
+
+def _sensors(simulation: Simulation, vehicle: str) -> SensorSuite:
+    """Return the sensors that ArduPilot does not make up itself, read at every frame."""
+    config, chosen = simulation.vehicle(vehicle).sensors, {}
+    for kind in ('rangefinder', 'airspeed'):
+        sensor = getattr(config, kind)
+        if sensor is not None:
+            rate = 1 / exact(simulation.timestep)
+            chosen[kind] = sensor.model_copy(update={'rate': rate, 'latency': 0.0})
+    return SensorSuite(simulation, vehicle, SensorsFile().model_copy(update=chosen))
 
 
 def _text(sender: Any) -> str:
