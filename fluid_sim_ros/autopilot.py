@@ -96,9 +96,6 @@ class CommandLog(Protocol):
     def event(self, **change: Any) -> None:
         """Keep a change that no message made."""
 
-    def next_segment(self) -> None:
-        """Begin anew: simulated time has been set back to 0."""
-
 
 @dataclass
 class Surroundings:

@@ -5,12 +5,11 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.autopilot import (
     AutopilotOptions,
     AutopilotPacing,
-    CommandLog,
     Surroundings,
     open_bridge,
 )
@@ -18,6 +17,9 @@ from fluid_sim_ros.environment import NEVER
 from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.runner import NoSource, Runner
 from fluid_sim_ros.simulation import Simulation
+
+if TYPE_CHECKING:
+    from fluid_sim_ros.recording.sink import RecordingSink
 
 #: Wall time between two lines about the same thing [s].
 _LINE_PERIOD = 1.0
@@ -53,7 +55,7 @@ class Flight:
         simulation: Simulation,
         clock: Pacing,
         run: AutopilotRun,
-        log: CommandLog | None,
+        log: 'RecordingSink | None',
         say: Callable[[str], None],
     ) -> None:
         self._simulation, self._log, self._say = simulation, log, say

@@ -4,7 +4,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -12,7 +12,6 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from fluid_sim_ros.autopilot import CommandLog
 from fluid_sim_ros.cli_flight import AutopilotRun, Flight
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.grid_watch import GridWatch
@@ -20,6 +19,9 @@ from fluid_sim_ros.pacing import Pacing, RealTime
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.runner import NoSource, Runner, Sink, duration_steps
 from fluid_sim_ros.simulation import Simulation
+
+if TYPE_CHECKING:
+    from fluid_sim_ros.recording.sink import RecordingSink
 
 #: Simulated time between two looks at the forces [s].
 _SAMPLE_PERIOD = 0.01
@@ -152,7 +154,7 @@ def _recording(
     topics: Sequence[str],
     sinks: list[Sink],
     fluid: str | None,
-) -> Iterator[tuple[dict[str, Any], CommandLog | None]]:
+) -> Iterator[tuple[dict[str, Any], 'RecordingSink | None']]:
     """Add a recording sink where one is asked for; give what the result says of it, and it."""
     if path is None:
         yield {}, None

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 
+from fluid_sim_ros.autopilot import Bridge
 from fluid_sim_ros.grid_watch import GridWatch
 from fluid_sim_ros.pacing import Lockstep, RealTime
 from fluid_sim_ros.physics.reynolds import reynolds_number
@@ -21,6 +22,7 @@ from fluid_sim_ros.runner import Runner
 from fluid_sim_ros.simulation import Simulation
 
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+_LEVELS = {'ok': _OK, 'warn': _WARN, 'error': _ERROR}
 #: MuJoCo warnings that leave the state alone but mean that something was cut short.
 _LIMIT_WARNINGS = (
     mujoco.mjtWarning.mjWARN_INERTIA,
@@ -79,6 +81,7 @@ class Diagnostics:
         self._inputs = inputs
         self._graph = graph
         self.tap: Tap | None = None
+        self.bridge: Bridge | None = None
         self.record = -1
         self._publisher = node.create_publisher(
             DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
@@ -100,6 +103,11 @@ class Diagnostics:
         message.status += [
             self._vehicle(i, name) for i, name in enumerate(self._simulation.vehicles)
         ]
+        if self.bridge is not None:
+            status = self.bridge.status()
+            message.status.append(
+                self._status('autopilot', _LEVELS[status.level], status.message, **status.values)
+            )
         if self.tap is not None:
             message.status.append(self._recording(self.tap))
         data = serialize_message(message)

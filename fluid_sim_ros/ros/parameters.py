@@ -18,6 +18,7 @@ from rcl_interfaces.msg import (
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from fluid_sim_ros.autopilot import LOOPBACK, PROTOCOLS
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.fluid_rungs import FLUID_RUNGS
 from fluid_sim_ros.scene import INTEGRATORS
@@ -141,6 +142,21 @@ TABLE: dict[str, Declared] = {
     'record.queue': Declared(8.0, '[MiB] size of the queue to the writer', low=0.25, high=1024),
     'record.chunk': Declared(
         1.0, '[s] wall time after which data is on the disk', low=0.05, high=3600
+    ),
+    'autopilot.protocol': Declared(
+        'none', 'autopilot that flies a vehicle, in lockstep', choices=('none', *PROTOCOLS)
+    ),
+    'autopilot.vehicle': Declared('', 'vehicle that it flies; empty = the only one'),
+    'autopilot.mapping': Declared(
+        '', 'what its outputs drive: name in config/autopilots, or file; empty = by vehicle'
+    ),
+    'autopilot.instance': Declared(0, 'its number on this host', low=0, high=250),
+    'autopilot.port': Declared(
+        0, 'port to listen on; 0 = that of the protocol and the instance', low=0, high=65535
+    ),
+    'autopilot.address': Declared(LOOPBACK, 'address to listen on; loopback = this host only'),
+    'autopilot.timeout': Declared(
+        1.0, '[s] wall time without an answer after which it counts as gone', low=0.01, high=3600
     ),
     'markers.rate': Declared(20.0, '[Hz] of wall time', low=0.1, high=100),
 }

@@ -6,10 +6,12 @@ from typing import Any
 
 from rclpy.node import Node
 
+from fluid_sim_ros.autopilot import AutopilotPacing
 from fluid_sim_ros.environment import whole_steps
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
 from fluid_sim_ros.pacing import Lockstep, Pacing, RealTime
 from fluid_sim_ros.requests import RequestQueue
+from fluid_sim_ros.ros.autopilot import check_pacing, start_autopilot
 from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.markers import VehicleMarkers
@@ -79,17 +81,24 @@ class Session:
             for i, vehicle in enumerate(self.simulation.vehicles.values())
         ]
         self.simulation.enable_wind(settings['enable_wind'])
+        self._bridge = start_autopilot(self.simulation, settings, self.inputs, report, self.reset)
+        self._diagnostics.bridge = self._bridge
         self.runner = Runner(
             self.simulation, self.inputs, [self.outputs], self._pacing(), requests,
             self._housekeeping,
         )  # fmt: skip
         self._diagnosed_at = self._marked_at = 0.0
-        self.tap = start_recording(
-            node, self.simulation, settings, self.inputs, self.outputs, self._diagnostics
-        )
+        try:
+            self.tap = start_recording(
+                node, self.simulation, settings, self.inputs, self.outputs, self._diagnostics
+            )
+        except FluidSimError:
+            self._close_bridge()
+            raise
 
     def destroy(self) -> None:
         """End the log and remove every topic from the node."""
+        self._close_bridge()
         if self.tap is not None:
             self.tap.close()
         self.inputs.destroy()
@@ -98,6 +107,10 @@ class Session:
         for markers in self._markers:
             markers.destroy(self._node)
         self.simulation.close()
+
+    def _close_bridge(self) -> None:
+        if self._bridge is not None:
+            self._bridge.close()
 
     # ---- the loop --------------------------------------------------------------------------
 
@@ -131,12 +144,20 @@ class Session:
                 markers.publish_if_wanted()
 
     def _pacing(self) -> Pacing:
+        if self._bridge is not None:
+            check_pacing(self._settings)
+            return AutopilotPacing(self._bridge, self._clock())
+        return self._lockstep() if self._settings['pacing'] == 'lockstep' else self._clock()
+
+    def _clock(self) -> Pacing:
         settings, timestep = self._settings, self.simulation.timestep
         if settings['pacing'] == 'free':
             return Pacing()
-        if settings['pacing'] == 'realtime':
-            tick = max(1, round(1.0 / (_REALTIME_TICK_RATE * timestep)))
-            return RealTime(factor=settings['realtime.factor'], tick=tick)
+        tick = max(1, round(1.0 / (_REALTIME_TICK_RATE * timestep)))
+        return RealTime(factor=settings['realtime.factor'], tick=tick)
+
+    def _lockstep(self) -> Lockstep:
+        settings, timestep = self._settings, self.simulation.timestep
         self.inputs.check_awaited()
         period = whole_steps(settings['lockstep.period'], timestep, "parameter 'lockstep.period'")
         odometry = period_steps(settings['odom.rate'], timestep, "parameter 'odom.rate'")

@@ -1,0 +1,100 @@
+"""The node with an autopilot: topics, wind, reset and log go on as without, over real DDS."""
+
+import signal
+import threading
+
+import pytest
+from ardupilot_stand_in import Copter, Link, padded
+from geometry_msgs.msg import TwistStamped
+from harness import Peer, node, stamp_ns, wait_until
+from nav_msgs.msg import Odometry
+from peers import free_port
+from px4_stand_in import Px4, Quad
+from std_srvs.srv import Trigger
+
+from fluid_sim_ros.recording.reader import open_log
+from fluid_sim_ros.recording.resimulate import resimulate
+
+pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
+
+
+class Pilot(threading.Thread):
+    """A stand-in that flies in a thread until ``done``."""
+
+    def __init__(self, fly):
+        super().__init__(daemon=True)
+        self._fly = fly
+        self.done = threading.Event()
+        self.start()
+
+    def run(self):
+        self._fly(self.done)
+
+
+def fly_px4(port):
+    def fly(done):
+        px4, quad, controls = Px4(port), Quad((0.0, 0.0, -2.0), 0.77), [0.0] * 4
+        while not done.is_set():
+            controls = quad.controls(px4, px4.exchange(controls))
+        px4.close()
+
+    return Pilot(fly)
+
+
+def fly_ardupilot(port):
+    def fly(done):
+        link, copter, pulses = Link(port), Copter((0.0, 0.0, -2.0), 0.77), padded([1000] * 4)
+        while not done.is_set():
+            pulses = copter.pulses(link.exchange(pulses))
+        link.close()
+
+    return Pilot(fly)
+
+
+@pytest.mark.parametrize(('protocol', 'fly'), [('px4', fly_px4), ('ardupilot', fly_ardupilot)])
+def test_a_node_that_an_autopilot_flies(tmp_path, protocol, fly):
+    log, port = tmp_path / 'flight.mcap', free_port(protocol)
+    settings = {
+        'scene': 'x500_ground', 'pacing': 'realtime', 'realtime.factor': 3.0, 'record': log,
+        'autopilot.protocol': protocol, 'autopilot.port': port,
+    }  # fmt: skip
+    with Peer() as peer:
+        peer.watch_diagnostics()
+        odometry = peer.collect(Odometry, 'x500/odom')
+        with node(**settings) as process:
+            wait_until(lambda: 'autopilot' in peer.diagnostics, 'diagnostics')
+            assert peer.diagnostics['autopilot'][1].startswith('waiting for')
+            wind = peer.publisher(TwistStamped, 'wind')
+            pilot = fly(port)
+            wait_until(lambda: odometry and odometry[-1].pose.pose.position.z > 1.0, 'take-off')
+            command = TwistStamped()
+            command.twist.linear.x = 4.0
+            wind.publish(command)
+            wait_until(lambda: odometry[-1].pose.pose.position.x > 0.05, 'the wind')
+            wait_until(lambda: peer.diagnostics['autopilot'][1] == 'in lockstep', 'lockstep')
+            before = stamp_ns(odometry[-1])
+            peer.call(Trigger, 'fluid_sim_node/reset')
+            wait_until(lambda: stamp_ns(odometry[-1]) < before, 'the reset')
+            pilot.done.set()
+            pilot.join()
+            process.signal(signal.SIGINT)
+            assert process.wait() == 0
+    outcome = resimulate(open_log(log))
+    assert outcome.commands > 200
+    assert outcome.compared > 1000
+    assert outcome.difference is None
+
+
+@pytest.mark.parametrize(
+    ('settings', 'line'),
+    [
+        ({'pacing': 'lockstep'}, 'an autopilot is a lockstep of its own; use free or realtime'),
+        ({'thrust.unit': 'normalized'}, "'thrust.unit': with an autopilot it must be newton"),
+    ],
+)
+def test_parameters_that_do_not_go_with_an_autopilot(settings, line):
+    settings = {'scene': 'x500_ground', 'autopilot.protocol': 'px4',
+                'autopilot.port': free_port('px4'), **settings}  # fmt: skip
+    with node(**settings) as process:
+        assert process.wait() != 0
+    assert line in process.output
