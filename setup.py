@@ -185,6 +185,7 @@ setup(
         'console_scripts': [
             'fluid_sim = fluid_sim_ros.cli:main',
             'fluid_sim_node = fluid_sim_ros.ros.node:main',
+            'plane_controller = fluid_sim_ros.ros.plane_controller:main',
             'quad_controller = fluid_sim_ros.ros.quad_controller:main',
             'rov_controller = fluid_sim_ros.ros.rov_controller:main',
             'auv_controller = fluid_sim_ros.ros.auv_controller:main',

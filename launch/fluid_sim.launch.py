@@ -11,7 +11,7 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction, SetEnvironment
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-CONTROLLERS = ('none', 'quad_controller', 'rov_controller', 'auv_controller')
+CONTROLLERS = ('none', 'quad_controller', 'rov_controller', 'auv_controller', 'plane_controller')
 PACINGS = ('', 'realtime', 'free', 'lockstep')
 
 

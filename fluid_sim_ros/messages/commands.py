@@ -38,6 +38,8 @@ class Effect:
     ----------
     answers
         It answers the present state (always true of commands that carry no stamp to match).
+    applied
+        It took effect; an answer to an earlier state does not.
     saturated
         How many values were beyond the range.
     shortfall
@@ -46,6 +48,7 @@ class Effect:
     """
 
     answers: bool = True
+    applied: bool = True
     saturated: int = 0
     shortfall: str = ''
 
@@ -135,7 +138,7 @@ class Commands:
     def _thrust_stamped(self, vehicle: Vehicle, data: bytes, scale: Array | None) -> Effect:
         command = read_joint_state(data)
         if not self._answers(command.stamp_ns):
-            return Effect(answers=False)
+            return Effect(answers=False, applied=False)
         values = command.effort
         if command.names:
             values = _by_name(vehicle, command.names, values)
@@ -155,16 +158,17 @@ class Commands:
 
     def _joints(self, vehicle: Vehicle, data: bytes) -> Effect:
         command = read_joint_state(data)
-        # a stamp of 0 means now, as for wind and current
-        if command.stamp_ns and not self._answers(command.stamp_ns):
-            return Effect(answers=False)
+        # a stamp of 0 means now, as for wind and current, and answers no state but the first
+        answers = self._answers(command.stamp_ns)
+        if command.stamp_ns and not answers:
+            return Effect(answers=False, applied=False)
         values = command.position if len(command.position) else command.effort
-        if not command.names:
-            return Effect(saturated=self._simulation.set_joints(vehicle.name, values.tolist()))
-        if len(command.names) != len(values):
-            raise CommandError(f'{len(command.names)} names, but {len(values)} values')
-        named = dict(zip(command.names, values.tolist(), strict=True))
-        return Effect(saturated=self._simulation.set_joints(vehicle.name, named))
+        joints: dict[str, float] | list[float] = values.tolist()
+        if command.names:
+            if len(command.names) != len(values):
+                raise CommandError(f'{len(command.names)} names, but {len(values)} values')
+            joints = dict(zip(command.names, values.tolist(), strict=True))
+        return Effect(answers, saturated=self._simulation.set_joints(vehicle.name, joints))
 
     def _wrench(self, vehicle: Vehicle, data: bytes) -> Effect:
         command = read_stamped_pair(data)

@@ -265,7 +265,7 @@ class Inputs:
 
     def _note(self, simulation: Simulation, vehicle: str, effect: Effect) -> None:
         """Count what became of a command; ``vehicle`` is the one whose thrust it was, or empty."""
-        if not effect.answers:
+        if not effect.applied:
             self.ignored_answers += 1
             return
         if effect.saturated:

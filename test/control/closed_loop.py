@@ -1,13 +1,14 @@
 """Controllers closed around the simulation of their scene; stamps as over ROS, without it."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import mujoco
 import numpy as np
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.fixed_wing import FixedWingController
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
 
@@ -31,9 +32,13 @@ class Loop:
         velocity_b = rot.to_body(rot.from_quaternion(q[3:7]), v[:3])
         return self.simulation.time, q[:3], q[3:7], velocity_b, v[3:6]
 
-    def advance(self, thrusts: list[float], medium_w: Vector) -> None:
+    def advance(
+        self, thrusts: list[float], medium_w: Vector, joints: Sequence[float] = ()
+    ) -> None:
         simulation = self.simulation
         simulation.set_thrust(self._vehicle, thrusts)
+        if joints:
+            simulation.set_joints(self._vehicle, joints)
         if medium_w != self._medium_w:
             self._medium_w = medium_w
             self._set_medium(medium_w)
@@ -84,4 +89,31 @@ def dive(
         rows.append([state[0], *state[1], rot.yaw_of(r_wb), tilt, *loop.data.qvel[:3], *thrusts])
         push(loop.data)
         loop.advance(thrusts, current(state[0]))
+    return np.array(rows)
+
+
+def cruise(
+    controller: FixedWingController,
+    seconds: float,
+    *,
+    altitude: float = 100.0,
+    heading: float = 0.0,
+    airspeed: float = 25.0,
+    wind: Callable[[float], Vector] = lambda t: STILL,
+    line: Vector | None = None,
+    rate: float = 100.0,
+) -> np.ndarray:
+    """Return rows of time, position (3), yaw, roll, airspeed, thrust, deflections (3)."""
+    loop, rows = Loop('aerosonde', rate, 'wind'), []
+    air = STILL
+    for _ in range(round(seconds * rate)):
+        state = loop.state()
+        command = controller.step(*state, air, altitude, heading, airspeed, line_w=line)
+        r_wb = rot.from_quaternion(state[2])
+        speed = np.linalg.norm(np.subtract(loop.data.qvel[:3], air))
+        roll = np.arctan2(r_wb[7], r_wb[8])
+        rows.append([state[0], *state[1], rot.yaw_of(r_wb), roll, speed, *command])
+        # the air of a state is what its step will fly in, as the node's message says
+        loop.advance([command.thrust], air, command[1:])
+        air = wind(loop.simulation.time)
     return np.array(rows)

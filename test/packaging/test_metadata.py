@@ -87,7 +87,7 @@ def test_the_mujoco_that_builds_is_the_mujoco_that_runs(egg_info):
 
 def test_every_command_can_be_imported(egg_info):
     scripts = sections((egg_info / 'entry_points.txt').read_text())['console_scripts']
-    assert len(scripts) == 4
+    assert len(scripts) == 6
     for line in scripts:
         name, value = (part.strip() for part in line.split('='))
         assert callable(EntryPoint(name, value, 'console_scripts').load()), line

@@ -89,7 +89,7 @@ def test_each_state_gets_the_answer_of_the_law_with_its_own_stamp():
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize('kind', ['quad', 'rov', 'auv'])
+@pytest.mark.parametrize('kind', ['quad', 'rov', 'auv', 'plane'])
 def test_ends_cleanly_on_a_signal_before_any_state(kind, number):
     with controller(kind) as process:
         wait_until(lambda: 'waiting for' in process.output, 'the start')
@@ -164,6 +164,8 @@ def test_a_waypoint_on_the_topic_is_flown_to_and_a_bad_one_rejected():
         ('rov', {'scene': 'quadrotor'}, 'rank 4; this controller needs 6'),
         ('auv', {'scene': 'rov'}, 'this controller needs: rudder, planes'),
         ('auv', {'gains.max_pitch': 2.0}, "gain 'max_pitch': 2.0; must be below pi/2"),
+        ('plane', {'scene': 'quadrotor'}, 'controller needs: aileron, elevator, rudder'),
+        ('plane', {'gains.balance': 0.0}, "gain 'balance': 0.0; must be above 0"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(kind, parameters, message):
@@ -283,3 +285,40 @@ def test_lockstep_auv_dives_and_turns_by_thrust_and_fins():
         assert error_lines(simulator.output + pilot.output) == []
     z, yaw = numbers(states[-1])[2:]  # still settling
     assert z == pytest.approx(-6.0, abs=0.3) and yaw == pytest.approx(-0.5, abs=0.03)
+
+
+def fly_in_wind(seconds, **parameters):
+    """Return rows of position and heading in lockstep, 100 Hz, and what both processes printed."""
+    with Peer() as peer:
+        states = peer.collect(Odometry, 'aerosonde/odom', depth=10000)
+        with node(scene='aerosonde', pacing='lockstep', duration=seconds) as simulator:
+            wait_until(lambda: states, 'the first state, which waits for its answer')
+            with controller('plane', **parameters) as pilot:
+                assert simulator.wait() == 0
+        output = simulator.output + pilot.output
+    by_stamp = {stamp_ns(m): m for m in states}
+    rows = [numbers(by_stamp[stamp]) for stamp in sorted(by_stamp)]
+    assert len(rows) >= 100 * seconds
+    return np.array(rows[: round(100 * seconds)]), output
+
+
+def test_lockstep_plane_holds_altitude_and_heading_in_wind_and_a_gust():
+    rows, output = fly_in_wind(20.0, altitude=102.0, heading=0.2)  # wind at 5 s, gust at 10 s
+    assert error_lines(output) == []
+    windy, gust, after = rows[900:1000], rows[1000:1300], rows[1950:]
+    for calm, turned in ((windy, 0.06), (after, 0.01)):  # 4 s after the wind, 7 s after the gust
+        assert calm[:, 2] == pytest.approx(102.0, abs=0.5)
+        assert calm[:, 3] == pytest.approx(0.2, abs=turned)
+    assert np.abs(rows[500:, 2] - 102.0).max() < 5.0
+    assert gust[:, 2].max() > 102.5  # it did lift
+
+
+def test_lockstep_plane_flies_waypoints_the_same_way_twice():
+    plan = '[60.0, 2.0, 100.5, 0.0, 0.0, 120.0, 10.0, 101.0, 0.3, 0.0]'
+    first, _ = fly_in_wind(10.0, waypoints=plan)
+    second, _ = fly_in_wind(10.0, waypoints=plan)
+    np.testing.assert_array_equal(first, second)
+    along, left = np.cos(0.3), np.sin(0.3)
+    distance = along * (first[:, 1] - 10) - left * (first[:, 0] - 120)
+    assert np.abs(distance[-50:]).max() < 5.0
+    assert first[-1, 2] == pytest.approx(101.0, abs=0.5)
