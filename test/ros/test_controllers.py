@@ -274,17 +274,17 @@ def test_lockstep_rov_dives_and_turns():
     assert there[2:] == pytest.approx([-6.0, 1.0], abs=0.01)
 
 
-def test_lockstep_auv_dives_and_turns_by_thrust_and_fins():
+def test_lockstep_auv_dives_and_heads_for_its_waypoints_by_thrust_and_fins():
+    plan = '[8.0, 0.0, -5.0, 3.0, 0.0, 150.0, -75.0, -6.0, 0.0, 0.0]'  # passes the first at once
     with Peer() as peer:
         states = peer.collect(Odometry, 'remus100/odom', depth=5000)
-        pilot = controller('auv', depth=6.0, heading=-0.5)
-        with pilot, node(scene='remus100', pacing='lockstep', duration=22.0) as simulator:
-            assert simulator.wait() == 0
-            pilot.signal(signal.SIGTERM)
-            assert pilot.wait() == 0
+        pilot = controller('auv', waypoints=plan, depth=2.0, heading=2.0)  # a plan comes first
+        with pilot, node(scene='remus100', pacing='lockstep') as simulator:
+            x, y, z, yaw = reach(states, 18.0)
         assert error_lines(simulator.output + pilot.output) == []
-    z, yaw = numbers(states[-1])[2:]  # still settling
-    assert z == pytest.approx(-6.0, abs=0.3) and yaw == pytest.approx(-0.5, abs=0.03)
+    assert math.hypot(x, y) > 20
+    assert yaw == pytest.approx(math.atan2(-75 - y, 150 - x), abs=0.03)
+    assert z == pytest.approx(-6.0, abs=0.3)  # still settling
 
 
 def fly_in_wind(seconds, **parameters):
