@@ -81,6 +81,8 @@ def top_speed(scene: str, direction: str) -> float:
 def decay(scene: str, axis: int, initial: float, seconds: float) -> tuple[Array, Array]:
     """Return times [s] and the velocity on one axis (0..5) that dies out from ``initial``."""
     simulation = start(scene, -50)
+    for at_start in (simulation.data.qvel, simulation.data.act, simulation.data.ctrl):
+        at_start[:] = 0  # a keyframe may be under way
     simulation.data.qvel[axis] = initial
     times, rows = free(simulation, scene, seconds, 10)
     return times, rows[:, axis]
