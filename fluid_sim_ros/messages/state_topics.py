@@ -45,6 +45,8 @@ class StateTopics:
     topics
         In the order in which they are published: those that need no forces come first, so that
         a controller can answer the state while the forces are evaluated.
+    suites
+        The sensors of each vehicle, sampled while their topics are asked for.
 
     Raises
     ------
@@ -60,7 +62,7 @@ class StateTopics:
         self._forces_known = False
         rows = simulation.observe(forces=True)
         self.topics: list[StateTopic] = []
-        self._suites = {name: SensorSuite(simulation, name) for name in simulation.vehicles}
+        self.suites = {name: SensorSuite(simulation, name) for name in simulation.vehicles}
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
         self._add_transforms(list(simulation.vehicles), rows)
@@ -69,7 +71,7 @@ class StateTopics:
 
     def restart(self) -> None:
         """Forget every sensor's readings: the simulation was reset."""
-        for suite in self._suites.values():
+        for suite in self.suites.values():
             suite.reset()
 
     def look(self) -> None:
@@ -117,14 +119,14 @@ class StateTopics:
             copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
             self._add(f'{name}/medium/{stream}', TWIST, template, 'medium.rate', copies)
         self._add_joint_states(vehicle)
-        self.topics += sensor_topics(self._simulation, self._suites[name], name)
+        self.topics += sensor_topics(self._simulation, self.suites[name], name)
 
     def _add_transforms(self, vehicles: Sequence[str], rows: Array) -> None:
         """Place each vehicle in the map by way of its odometry frame, and its sensors on it."""
         parents: dict[str, str] = {}
         for name in vehicles:
             parents |= {f'{name}/odom': 'map', f'{name}/base_link': f'{name}/odom'}
-            parents |= {s.frame: f'{name}/base_link' for s in self._suites[name].sensors}
+            parents |= {s.frame: f'{name}/base_link' for s in self.suites[name].sensors}
         template = templates.transforms(parents)
         pairs = zip(template.blocks[::2], template.blocks[1::2], strict=True)
         blocks = dict(zip(parents, pairs, strict=True))
@@ -137,7 +139,7 @@ class StateTopics:
                 (position, templates.as_bytes(row[nat.POSITION])),
                 *_orientation(orientation, row[nat.QUATERNION]),
             ]
-            for sensor in self._suites[name].sensors:
+            for sensor in self.suites[name].sensors:
                 place, turn = blocks[sensor.frame]
                 place[:] = templates.as_bytes(sensor.mount.position_b)
                 for target, source in _orientation(turn, sensor.frame_quat_bs):

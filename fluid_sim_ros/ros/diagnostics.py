@@ -1,7 +1,7 @@
 """What the node says of itself on /diagnostics, once per second of wall time."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import mujoco
@@ -12,6 +12,7 @@ from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 
 from fluid_sim_ros.autopilot import Bridge
+from fluid_sim_ros.errors import listed
 from fluid_sim_ros.grid_watch import GridWatch
 from fluid_sim_ros.pacing import Lockstep, RealTime
 from fluid_sim_ros.physics.reynolds import reynolds_number
@@ -19,6 +20,7 @@ from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.runner import Runner
+from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
 
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
@@ -75,11 +77,13 @@ class Diagnostics:
         simulation: Simulation,
         inputs: Inputs,
         graph: GraphMonitor,
+        suites: Mapping[str, SensorSuite],
     ) -> None:
         self._node = node
         self._simulation = simulation
         self._inputs = inputs
         self._graph = graph
+        self._suites = suites
         self.tap: Tap | None = None
         self.bridge: Bridge | None = None
         self.record = -1
@@ -224,9 +228,11 @@ class Diagnostics:
         if option.density > 0 and option.viscosity > 0:
             length = self._length(simulation.vehicles[name].body_id)
             reynolds = float(reynolds_number(speed, length, option.density, option.viscosity))
+        beyond = {s.config.kind: s.saturated for s in self._suites[name].sensors if s.saturated}
         return self._status(
             f'vehicle {name}', _OK, 'moving' if speed else 'at rest',
             speed_through_medium_m_s=f'{speed:.4f}', reynolds_number=f'{reynolds:.4g}',
+            sensor_values_beyond_range=listed(f'{kind} {n}' for kind, n in beyond.items()),
         )  # fmt: skip
 
     def _length(self, body: int) -> float:

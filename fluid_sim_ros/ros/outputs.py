@@ -82,6 +82,7 @@ class Outputs:
     def __init__(self, node: Node, simulation: Simulation, settings: dict[str, Any]) -> None:
         self._node = node
         self._states = StateTopics(simulation, settings)
+        self.suites = self._states.suites
         self.topics = [
             Topic(state, self._publisher(state), node.resolve_topic_name(state.name))
             for state in self._states.topics

@@ -75,7 +75,9 @@ class Session:
         self._until = duration_steps(settings['duration'], self.simulation.timestep)
         self.inputs = Inputs(node, self.simulation, settings, report)
         self.outputs = Outputs(node, self.simulation, settings)
-        self._diagnostics = Diagnostics(node, self.simulation, self.inputs, graph)
+        self._diagnostics = Diagnostics(
+            node, self.simulation, self.inputs, graph, self.outputs.suites
+        )
         self._markers = [
             VehicleMarkers(node, self.simulation, vehicle, i)
             for i, vehicle in enumerate(self.simulation.vehicles.values())

@@ -136,12 +136,13 @@ def limit_files(pid, size):
     resource.prlimit(pid, resource.RLIMIT_FSIZE, (size, size))
 
 
-def test_equal_messages_have_equal_bytes_with_and_without_ros(tmp_path):
-    run_scene('sphere', duration=0.5, record=tmp_path / 'a.mcap')
-    with node(scene='sphere', record=tmp_path / 'b.mcap', duration=0.5, pacing='free') as process:
+@pytest.mark.parametrize('scene', ['sphere', 'x500'])
+def test_equal_messages_have_equal_bytes_with_and_without_ros(tmp_path, scene):
+    run_scene(scene, duration=0.5, record=tmp_path / 'a.mcap')
+    with node(scene=scene, record=tmp_path / 'b.mcap', duration=0.5, pacing='free') as process:
         assert process.wait() == 0
     first, second = read(tmp_path / 'a.mcap'), read(tmp_path / 'b.mcap')
     assert second.pop('/diagnostics')
     assert first == second
-    message = deserialize_message(first['/sphere/odom'][-1][1], Odometry)
-    assert len(serialize_message(message)) == len(first['/sphere/odom'][-1][1])
+    message = deserialize_message(first[f'/{scene}/odom'][-1][1], Odometry)
+    assert len(serialize_message(message)) == len(first[f'/{scene}/odom'][-1][1])

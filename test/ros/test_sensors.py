@@ -46,3 +46,22 @@ def test_bottom_track_of_the_rov():
             wait_until(lambda: len(velocity) > 3, 'the DVL')
     assert velocity[0].header.frame_id == 'bluerov2_heavy/dvl'
     assert velocity[0].twist.covariance[0] > 0
+
+
+def test_values_beyond_a_range_are_reported(tmp_path):
+    scene = tmp_path / 'high.yaml'
+    scene.write_text(
+        'model: x500\nkeyframe: hover\nvehicles:\n  x500:\n    body: x500\n'
+        '    sensors: {rangefinder: {rate: 50, distance: {range: [0.1, 0.2]}}}\n'
+    )
+    with Peer() as peer:
+        peer.watch_diagnostics()
+        ranges = peer.collect(Range, 'x500/range', reliable=False)
+
+        def reported():
+            values = peer.diagnostics.get('vehicle x500', (0, '', {}))[2]
+            return values.get('sensor_values_beyond_range', '').startswith('rangefinder ')
+
+        with node(scene=str(scene)):
+            wait_until(reported, 'the count')
+    assert ranges[0].range == float('inf')

@@ -36,8 +36,13 @@ def test_what_is_stated_comes_before_the_preset():
     assert file.imu.accelerometer.range == [-156.9, 156.9]
 
 
-@pytest.mark.parametrize('scene', ['x500', 'quadrotor', 'crazyflie', 'bluerov2', 'rov',
-                                   'bluerov2_heavy'])  # fmt: skip
+SHIPPED = (
+    'x500', 'quadrotor', 'crazyflie', 'bluerov2', 'rov', 'bluerov2_heavy', 'aerosonde', 'remus100',
+    'amphibious',
+)  # fmt: skip
+
+
+@pytest.mark.parametrize('scene', SHIPPED)
 def test_shipped_vehicles_have_sensors(scene):
     simulation = Simulation(scene)
     suite = SensorSuite(simulation, next(iter(simulation.vehicles)))

@@ -110,3 +110,24 @@ def test_a_vehicle_without_sensors(brick):
 def test_unknown_vehicle(brick):
     with pytest.raises(CommandError, match="vehicle 'bric' is not in the scene; it has: brick"):
         SensorSuite(brick(), 'bric')
+
+
+def test_readings_do_not_depend_on_other_sensors(brick, readings):
+    imu = {'rate': 125, 'gyroscope': NOISY, 'accelerometer': NOISY}
+    alone, _ = readings(brick(imu=imu), 'imu', 300)
+    others = {kind: {'rate': 250, 'latency': 0.006} for kind in ('barometer', 'gnss')}
+    among, _ = readings(brick(imu=imu, magnetometer={'rate': 500}, **others), 'imu', 300)
+    np.testing.assert_array_equal(alone, among)
+
+
+def test_a_pause_leaves_no_old_reading_behind(brick):
+    simulation = brick(imu={'rate': 125, 'latency': 0.02})
+    suite = SensorSuite(simulation, 'brick')
+    suite.update()
+    simulation.step(100)  # nobody listens
+    suite.update()
+    for _ in range(5):
+        assert not suite.imu.fresh
+        simulation.step(suite.period)
+        suite.update()
+    assert (suite.imu.fresh, suite.imu.time_ns) == (True, 200_000_000)
