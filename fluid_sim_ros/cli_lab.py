@@ -12,6 +12,8 @@ from fluid_sim_ros.errors import ConfigError
 if TYPE_CHECKING:
     from fluid_sim_ros.lab.measure import Report
 
+#: Exit code of advise where nothing meets the tolerance.
+NOTHING_FITS = 1
 #: Timesteps of a quick chart [s].
 _QUICK = (0.02, 0.01, 0.005, 0.002)
 
@@ -40,6 +42,8 @@ def add_parsers(commands: Any, show: Show, json_help: str) -> None:
         help='draw results of an earlier chart again, without running',
     )  # fmt: skip
     _add_stability(add('stability', 'map where integration is stable', _stability))
+    text = 'find the cheapest fluid model, integrator and timestep for a scene'
+    _add_advise(add('advise', text, _advise))
 
 
 def _add_stability(stability: argparse.ArgumentParser) -> None:
@@ -62,6 +66,25 @@ def _add_stability(stability: argparse.ArgumentParser) -> None:
     )
     stability.add_argument('--restart', action='store_true', help='forget an interrupted run')
     stability.add_argument('--out', metavar='FOLDER', type=Path, default=Path('out/stability'))
+
+
+def _add_advise(advise: argparse.ArgumentParser) -> None:
+    advise.add_argument('scene', metavar='SCENE', help='name (fluid_sim scenes) or file')
+    advise.add_argument(
+        '--tolerance', type=float, required=True, metavar='X',
+        help='largest relative error against the converged run of the full model (0.01: 1 %%)',
+    )  # fmt: skip
+    advise.add_argument('--duration', type=float, metavar='S', help='default: of the scene [s]')
+    advise.add_argument(
+        '--metric', default='pose', help='pose, position, attitude, velocity or regime'
+    )
+    advise.add_argument(
+        '--rate', type=float, default=100.0, metavar='HZ',
+        help='the timestep must divide the period of control and outputs (default 100 Hz)',
+    )  # fmt: skip
+    advise.add_argument(
+        '--apply', action='store_true', help="write the choice into the scene's YAML file"
+    )
 
 
 @contextmanager
@@ -181,6 +204,53 @@ def _settings(pairs: list[str]) -> dict[str, float]:
         except ValueError:
             raise ConfigError(f"--set '{pair}': must be AXIS=NUMBER") from None
     return out
+
+
+def _advise(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.lab.advise import advise, settings, snippet
+    from fluid_sim_ros.lab.scene_settings import apply, scene_file
+
+    if arguments.apply:
+        scene_file(arguments.scene)
+    with progress() as report:
+        advice = advise(
+            arguments.scene, arguments.tolerance, duration=arguments.duration,
+            metric_name=arguments.metric, rate=arguments.rate, report=report,
+        )  # fmt: skip
+    lines = []
+    if advice['metric'] != arguments.metric:
+        lines.append('The motion forgets its start: judged by its regime, not point by point.')
+    table = Table(
+        'fluid', 'integrator', 'timestep', 'error', 'µs per simulated s', 'fails at',
+        title=f'{advice["scene"]}: within {arguments.tolerance:g} ({advice["metric"]}), '
+        'cheapest first',
+    )  # fmt: skip
+    for each in advice['candidates']:
+        fails = f'{each["fails_at_s"] * 1e3:g} ms' if each['fails_at_s'] else ''
+        table.add_row(
+            each['rung'], each['integrator'], f'{each["timestep"] * 1e3:g} ms',
+            f'{each["error"]:.2g}', f'{each["wall_us_per_s"]:.4g}', fails,
+        )  # fmt: skip
+    if advice['choice'] is None:
+        lines.append(f'Nothing meets {arguments.tolerance:g}: {advice["missing"]}')
+    else:
+        bound = 'at least ' if advice['choice']['margin_is_a_bound'] else ''
+        lines += [
+            f'{advice["cheaper_than_baseline"]:.3g} times cheaper than RK4 at '
+            f'{advice["baseline"]["timestep"] * 1e3:g} ms with everything on; '
+            f'{bound}{advice["choice"]["margin"]:.3g} times below the step at which it fails.',
+            snippet(advice),
+        ]
+        if arguments.apply:
+            path = apply(arguments.scene, snippet(advice), settings(advice))
+            advice['applied'] = str(path)
+            lines.append(f'written: {path}')
+    show(arguments.json, Group(table, escape('\n'.join(lines))), advice)
+    return 0 if advice['choice'] else NOTHING_FITS
 
 
 def _list_stability(arguments: argparse.Namespace, show: Show) -> int:

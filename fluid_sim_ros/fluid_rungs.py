@@ -56,6 +56,13 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
                 geom.fluid_ellipsoid = 1.0
 
 
+def has_body_plugins(spec: mujoco.MjSpec) -> bool:
+    """Return whether bodies have fluid forces by our plugins."""
+    names = {plugin.plugin_name for plugin in spec.plugins}
+    names |= {body.plugin.plugin_name for body in spec.bodies if body.plugin.active}
+    return not names.isdisjoint(_ON_BODIES)
+
+
 def _take_added_mass_away(spec: mujoco.MjSpec, path: Path) -> None:
     """Set every stated added mass to zero; refuse a model that states none."""
     stated = [plugin for plugin in spec.plugins if 'added_mass' in plugin.config]

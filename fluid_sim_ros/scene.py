@@ -62,6 +62,8 @@ class Scene:
         The model itself as text, in place of the file.
     description, medium, duration, keyframe, home, waves, wind, current, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
+    timestep, integrator, fluid
+        In place of the model's; see ``compile``.
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
     masses
@@ -83,6 +85,9 @@ class Scene:
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
     mjcf: str = ''
+    timestep: float | None = None
+    integrator: str | None = None
+    fluid: str | None = None
     masses: dict[str, float] = field(default_factory=dict)
 
     @classmethod
@@ -129,7 +134,7 @@ class Scene:
         Parameters
         ----------
         timestep
-            Replaces the model's timestep [s].
+            Replaces the scene's timestep [s]; without either the model's holds, as for the others.
         integrator
             Replaces the model's integrator, one of ``INTEGRATORS`` (any case).
         fluid
@@ -144,7 +149,10 @@ class Scene:
 
         """
         load_plugins()
-        spec = _read_model(self.model_path, self.mjcf)
+        timestep = self.timestep if timestep is None else timestep
+        integrator = self.integrator if integrator is None else integrator
+        fluid = self.fluid if fluid is None else fluid
+        spec = self.read_model()
         scale_masses(spec, self.masses, self.model_path)
         if timestep is not None:
             if not (np.isfinite(timestep) and timestep > 0):
@@ -152,9 +160,13 @@ class Scene:
             spec.option.timestep = timestep
         if integrator is not None:
             spec.option.integrator = _integrator(integrator)
+        # without a fluid wind and current still may be commanded, to no effect
+        dry = (
+            _streams(compile_spec(spec, self.model_path), self.medium) if fluid == 'none' else None
+        )
         if fluid is not None:
             force_fluid(spec, fluid, self.model_path)
-        elif self.waves is not None:  # the forced rungs have no free surface
+        if self.waves is not None and fluid in (None, 'no_added_mass'):  # others: no surface
             _raise_waves(spec, self.waves.keys(seed), self.name)
         if fluid != 'none':
             apply_weather(spec, self.wind, self.current, seed, self.name)
@@ -163,9 +175,18 @@ class Scene:
         schedule = Schedule(self.schedule, model.opt.timestep)
         _check_schedule(self, vehicles)
         gaits = Gaits(self.gait, vehicles, model.opt.timestep)
-        streams = _streams(model, self.medium)
+        streams = dry or _streams(model, self.medium)
         self._check_weather(streams)
         return CompiledScene(model, vehicles, schedule, gaits, self._keyframe_id(model), streams)
+
+    def read_model(self) -> mujoco.MjSpec:
+        """Return the model as it is written, or raise ModelError."""
+        try:
+            if self.mjcf:
+                return mujoco.MjSpec.from_string(self.mjcf)
+            return mujoco.MjSpec.from_file(str(self.model_path))
+        except ValueError as error:
+            raise ModelError(f'{self.model_path}: {" ".join(str(error).split())}') from None
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
         files = self.vehicles
@@ -235,6 +256,9 @@ def _from_yaml(path: Path) -> Scene:
         schedule=tuple(content.schedule),
         gait=content.gait,
         vehicles=vehicles,
+        timestep=content.timestep,
+        integrator=content.integrator,
+        fluid=content.fluid,
     )
 
 
@@ -246,13 +270,6 @@ def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
         known = listed(sorted(p.stem for p in folder.glob('*.yaml')))
         raise ConfigError(f"{scene_path}: vehicle file '{name}' is not known; vehicles: {known}")
     return parse(VehicleFile, read_yaml(path), path)
-
-
-def _read_model(path: Path, mjcf: str) -> mujoco.MjSpec:
-    try:
-        return mujoco.MjSpec.from_string(mjcf) if mjcf else mujoco.MjSpec.from_file(str(path))
-    except ValueError as error:
-        raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
 
 
 def _raise_waves(spec: mujoco.MjSpec, keys: dict[str, str], name: str) -> None:

@@ -81,6 +81,9 @@ class SceneFile(Strict):
     description: str = ''
     medium: Literal['air', 'water'] | None = None
     vehicles: dict[Name, str | VehicleFile] | None = None
+    timestep: Positive | None = None
+    integrator: str | None = None
+    fluid: str | None = None
     duration: Positive = 10.0
     keyframe: str | None = None
     home: Home = Home()

@@ -223,7 +223,7 @@ def _walls(
         for index in shuffled.sample(range(len(settings)), len(settings))
     ]
     for index in _counted(order, f'{problem.name}: wall time', report):
-        measured[index].append(_wall(problem, settings[index]))
+        measured[index].append(wall_per_second(problem, settings[index]))
     return [
         {
             'wall_us_per_s': statistics.median(row),
@@ -234,7 +234,7 @@ def _walls(
     ]
 
 
-def _wall(problem: Problem, setting: Setting) -> float:
+def wall_per_second(problem: Problem, setting: Setting) -> float:
     """Return the wall time per simulated second [us/s] of stepping alone, up to a failure."""
     rung, integrator, timestep = setting
     simulation = problem.rungs[rung].simulation(integrator, timestep)

@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.environment import exact, whole_steps
-from fluid_sim_ros.errors import ConfigError, DivergedError
+from fluid_sim_ros.errors import ConfigError, DivergedError, ModelError
+from fluid_sim_ros.fluid_rungs import FLUID_RUNGS, has_body_plugins
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
 
@@ -152,10 +152,11 @@ def of_scene(scene: str | Scene, duration: float | None = None) -> Problem:
     """
     Return the problem that a scene is: its own manoeuvre, against its own converged run.
 
-    The rungs are those of ``fluid_rungs`` below the scene's own model, poorest first, and last the
-    scene itself; timesteps reach from 1/40 to 25 times the model's own.
+    The rungs are those of ``fluid_rungs`` below the model's own, poorest first, and last
+    ``scene``, the model's own; what the scene's file says of the settings does not count.
+    Timesteps reach from 1/40 to 25 times the model's own.
     """
-    loaded = Scene.load(scene)
+    loaded = replace(Scene.load(scene), fluid=None, timestep=None, integrator=None)
     rungs = {name: Rung(loaded, name) for name in _poorer(loaded)} | {'scene': Rung(loaded)}
     own = float(loaded.compile().model.opt.timestep)
     seconds = loaded.duration if duration is None else duration
@@ -179,40 +180,21 @@ def of_scene(scene: str | Scene, duration: float | None = None) -> Problem:
 
 
 def _poorer(scene: Scene) -> list[str]:
-    """Return the fluid rungs that lie below a scene's own model and differ from each other."""
+    """Return the fluid rungs that lie below a scene's own model."""
     model = scene.compile().model
     stock = model.opt.density > 0 or model.opt.viscosity > 0
-    ellipsoids = bool(np.any(model.geom_fluid[:, 0] > 0))
-    plugins = _rung_compiles(scene, 'no_added_mass') or bool(model.nplugin and not stock)
-    below = ['none']
-    if plugins or (stock and ellipsoids):
-        below.append('inertia')
-    if plugins:
-        below.append('ellipsoid')
-    if _rung_compiles(scene, 'no_added_mass'):
-        below.append('no_added_mass')
+    if has_body_plugins(scene.read_model()):
+        below = list(FLUID_RUNGS)
+    elif stock and np.any(model.geom_fluid[:, 0] > 0):
+        below = ['none', 'inertia']
+    else:
+        below = ['none']
     return [name for name in below if _rung_compiles(scene, name)]
 
 
 def _rung_compiles(scene: Scene, fluid: str) -> bool:
     try:
         scene.compile(fluid=fluid)
-    except ConfigError:
+    except (ConfigError, ModelError):
         return False
     return True
-
-
-def with_fields(scene: Scene, **fields: object) -> Scene:
-    """Return a scene with some fields changed."""
-    return replace(scene, **fields)  # type: ignore[arg-type]
-
-
-def largest_size(simulation: Simulation) -> float:
-    """Return the largest distance of a body's centre from its vehicle's base, or its size [m]."""
-    model = simulation.model
-    sizes = [
-        float(model.geom_rbound[geom])
-        for geom in range(model.ngeom)
-        if model.geom_bodyid[geom] > 0 and model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE
-    ]
-    return max(sizes, default=0.1)

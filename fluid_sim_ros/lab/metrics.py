@@ -1,0 +1,66 @@
+"""Relative errors of a scene's motion: what a tolerance of, say, 1 % is a percentage of."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from fluid_sim_ros.lab.norms import attitude_error, position_error, regime, regime_error
+from fluid_sim_ros.lab.problem import VELOCITY, Array, Problem, Rung
+
+Metric = Callable[[Array, Array], float]  # of states and reference states, shape (n, vehicles, 13)
+
+METRICS = ('pose', 'position', 'attitude', 'velocity', 'regime')
+#: A turn below this is not measured against its own size [rad].
+_LEAST_TURN = 0.1
+#: Nor is a speed [m/s].
+_LEAST_SPEED = 1e-3
+
+
+def vehicle_size(rung: Rung) -> float:
+    """Return the largest extent of a vehicle from its base [m], shapes that collide or fluid."""
+    compiled = rung.scene.compile()
+    model = compiled.model
+    sizes = [
+        float(np.linalg.norm(model.geom_pos[geom]) + model.geom_rbound[geom])
+        for vehicle in compiled.vehicles.values()
+        for geom in range(model.ngeom)
+        if model.geom_bodyid[geom] == vehicle.body_id
+    ]
+    return max(sizes, default=0.1)
+
+
+def metric(name: str, problem: Problem, reference: Array) -> Metric:
+    """
+    Return a metric by name; each is the largest over time and vehicles.
+
+    position: over the largest distance from the start, at least the vehicle's size; attitude:
+    over the largest turn from the start, at least 0.1 rad; pose: the larger of both; velocity:
+    over the largest speed; regime: of mean descent and frequency.
+    """
+    start = reference[:1]
+    length = max(
+        float(position_error(reference, start).max()), vehicle_size(problem.rungs[problem.richest])
+    )
+    turn = max(float(attitude_error(reference, start).max()), _LEAST_TURN)
+    speed = max(float(np.linalg.norm(reference[..., VELOCITY], axis=-1).max()), _LEAST_SPEED)
+
+    def position(states: Array, wanted: Array) -> float:
+        return float(position_error(states, wanted).max()) / length
+
+    def attitude(states: Array, wanted: Array) -> float:
+        return float(attitude_error(states, wanted).max()) / turn
+
+    def velocity(states: Array, wanted: Array) -> float:
+        apart = np.linalg.norm(states[..., VELOCITY] - wanted[..., VELOCITY], axis=-1)
+        return float(apart.max()) / speed
+
+    def same_regime(states: Array, wanted: Array) -> float:
+        return regime_error(regime(problem.times, states), regime(problem.times, wanted))
+
+    return {
+        'position': position,
+        'attitude': attitude,
+        'velocity': velocity,
+        'pose': lambda states, wanted: max(position(states, wanted), attitude(states, wanted)),
+        'regime': same_regime,
+    }[name]

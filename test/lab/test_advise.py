@@ -1,0 +1,135 @@
+"""The advisor: cheap enough, accurate enough, verified, and written into the scene."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fluid_sim_ros import Scene, Simulation
+from fluid_sim_ros.cli import main
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.lab.advise import advise, settings, snippet, verify
+from fluid_sim_ros.lab.metrics import METRICS, metric
+from fluid_sim_ros.lab.problem import of_scene
+
+STATED = """# a scene of mine
+model: sphere
+medium: water
+vehicles: {sphere: sphere}
+duration: 2.0  # [s]
+keyframe: drop
+timestep: 0.002
+"""
+
+
+@pytest.fixture(scope='module')
+def sphere():
+    return advise('sphere', 0.01, duration=2.0)
+
+
+def test_the_choice_keeps_the_tolerance_and_is_the_cheapest(sphere):
+    walls = [row['wall_us_per_s'] for row in sphere['candidates']]
+    assert walls == sorted(walls)
+    assert all(row['error'] <= 0.01 for row in sphere['candidates'])
+    assert sphere['choice'] == sphere['candidates'][0]
+    assert sphere['runner_up'] == sphere['candidates'][1]
+    assert sphere['cheaper_than_baseline'] > 3
+    assert sphere['choice']['margin'] >= 1
+
+
+def test_an_independent_run_confirms_it(sphere):
+    found = verify('sphere', sphere)
+    assert found['within']
+    assert 0 < found['error'] <= 0.01
+
+
+def test_a_smaller_tolerance_costs_more(sphere):
+    finer = advise('sphere', 1e-7, duration=2.0)
+    assert finer['choice']['integrator'] == 'RK4'
+    assert finer['choice']['wall_us_per_s'] > sphere['choice']['wall_us_per_s']
+
+
+def test_a_poor_model_is_taken_where_it_is_good_enough():
+    """A quadrotor that hovers for a while does not feel the air."""
+    calm = replace(Scene.load('quadrotor'), schedule=())
+    assert advise(calm, 0.01, duration=1.0)['choice']['rung'] == 'none'
+    assert advise('ellipsoid', 0.01, duration=2.0)['choice']['rung'] == 'scene'
+
+
+def test_what_is_missing_is_said():
+    found = advise('ellipsoid', 1e-13, duration=1.0)
+    assert found['choice'] is None
+    assert 'scene by RK4' in found['missing'] or 'known to' in found['missing']
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'message'),
+    [
+        ({'tolerance': 1.0}, 'tolerance 1: must be above 0 and below 1'),
+        (
+            {'tolerance': 0.1, 'metric_name': 'beauty'},
+            "metric 'beauty' is not known; allowed: pose",
+        ),
+        ({'tolerance': 0.1, 'rate': 1e7}, 'no timestep of 1, 2, 5 times a power of ten fits it'),
+    ],
+)
+def test_wrong_input_is_refused(arguments, message):
+    with pytest.raises(ConfigError, match=message):
+        advise('sphere', duration=1.0, **arguments)
+
+
+def test_metrics_are_relative_and_zero_for_the_same_motion():
+    case = of_scene('ellipsoid', 1.0)
+    states = np.zeros((len(case.times), 1, 13))
+    states[:, 0, 3] = 1
+    states[:, 0, 0] = 10 * case.times  # [m]: 10 m along x at 10 m/s
+    states[:, 0, 7] = 10
+    moved = states.copy()
+    moved[-1, 0, 0] += 0.5
+    moved[-1, 0, 7] += 0.2
+    for name in METRICS:
+        assert metric(name, case, states)(states, states) == 0
+    for name, size in (('position', 0.05), ('pose', 0.05), ('velocity', 0.02), ('attitude', 0)):
+        assert metric(name, case, states)(moved, states) == pytest.approx(size)
+
+
+def test_the_lines_say_what_the_scene_then_does(sphere, tmp_path):
+    path = tmp_path / 'mine.yaml'
+    path.write_text(STATED.replace('timestep: 0.002\n', '') + snippet(sphere))
+    simulation = Simulation(path)
+    assert simulation.timestep == settings(sphere)['timestep'] == sphere['choice']['timestep']
+    assert simulation.model.opt.integrator == Scene.load(path).compile().model.opt.integrator
+
+
+def test_apply_writes_the_choice_and_keeps_the_rest(tmp_path, capsys):
+    path = tmp_path / 'mine.yaml'
+    path.write_text(STATED)
+    for tolerance in ('0.05', '0.01'):
+        arguments = ['advise', str(path), '--tolerance', tolerance, '--duration', '1', '--apply']
+        assert main([*arguments, '--json', '-']) == 0
+        result = json.loads(capsys.readouterr().out)
+    text = path.read_text()
+    assert text.startswith('# a scene of mine\nmodel: sphere\n')
+    assert text.count('timestep:') == text.count('integrator:') == text.count('# fluid_sim') == 1
+    assert 'duration: 2.0  # [s]' in text
+    loaded = Scene.load(path)
+    assert loaded.timestep == result['choice']['timestep']
+    assert loaded.integrator == result['choice']['integrator']
+    assert main(['advise', 'sphere.xml', '--tolerance', '.1', '--apply']) == 2
+    assert 'has no scene file' in capsys.readouterr().err
+
+
+def test_a_scene_without_waves_and_currents_can_still_be_dry():
+    """The rung none keeps the scene's own events from being refused."""
+    simulation = Simulation('rov', fluid='none')
+    simulation.set_current([0.3, 0, 0])
+    simulation.step()
+
+
+@pytest.mark.parametrize(('key', 'value'), [('integrator', 'RK5'), ('fluid', 'honey')])
+def test_a_wrong_setting_in_a_scene_file_is_refused(tmp_path, key, value):
+    path = tmp_path / 'mine.yaml'
+    path.write_text(f'{STATED}{key}: {value}\n')
+    with pytest.raises(ConfigError, match=f"{key} '{value}' is not known"):
+        Simulation(path)
