@@ -90,6 +90,8 @@ def advise(
     problem = _problem(scene, duration, rate)
     reference = _reference(problem, tolerance, metric_name, report)
     candidates, refused = _search(problem, reference, tolerance, report)
+    if reference.within > tolerance:
+        candidates = []  # what they are compared with is not known well enough
     usual = max((h for h in problem.timesteps if h <= _BASELINE), default=_BASELINE)
     baseline = Setting(problem.richest, 'RK4', usual)
     walls = _timed(problem, [each.setting for each in candidates] + [baseline], report)
@@ -309,12 +311,12 @@ def _described(
 
 def _missing(refused: Sequence[dict[str, Any]], reference: Reference, tolerance: float) -> str:
     """Return one line on what stands between the scene and the tolerance."""
-    best = min(refused, key=lambda row: float(row['error']))
     if reference.within > tolerance:
         return (
             f'the richest model is known to {reference.within:.2g} only '
             f'(RK4, {reference.timestep:g} s); give a larger tolerance or a shorter --duration'
         )
+    best = min(refused, key=lambda row: float(row['error']))
     return (
         f'the closest is {best["rung"]} by {best["integrator"]} at {best["timestep"]:g} s with '
         f'{best["error"]:.2g}: a smaller timestep than {reference.timestep:g} s is needed'
