@@ -16,7 +16,7 @@ from ardupilot_stand_in import (
     Submarine,
     padded,
 )
-from peers import Flight, waited
+from autopilot_peers import Flight, waited
 
 from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings, open_bridge
 from fluid_sim_ros.errors import ConfigError

@@ -5,10 +5,10 @@ import threading
 
 import pytest
 from ardupilot_stand_in import Copter, Link, padded
+from autopilot_peers import free_port
 from geometry_msgs.msg import TwistStamped
 from harness import Peer, node, stamp_ns, wait_until
 from nav_msgs.msg import Odometry
-from peers import free_port
 from px4_stand_in import Px4, Quad
 from std_srvs.srv import Trigger
 

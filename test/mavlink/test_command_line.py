@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from ardupilot_stand_in import Copter, Link, padded
-from peers import free_port, waited
+from autopilot_peers import free_port, waited
 
 from fluid_sim_ros.autopilot import AutopilotOptions
 from fluid_sim_ros.cli import main

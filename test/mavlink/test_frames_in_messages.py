@@ -6,8 +6,8 @@ import hil_wire
 import mujoco
 import numpy as np
 import pytest
+from autopilot_peers import Flight
 from json_reader import JsonReader
-from peers import Flight
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.mavlink.hil_messages import HilCodec

@@ -7,7 +7,7 @@ import time
 
 import hil_wire
 import pytest
-from peers import Flight, waited
+from autopilot_peers import Flight, waited
 from px4_stand_in import Px4, Quad, Submarine
 
 from fluid_sim_ros.errors import ConfigError
