@@ -224,5 +224,7 @@ FSR_API void fsr_kinetic_energy(const mjModel* m, const mjData* d, mjData* scrat
   mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
   mj_fwdPosition(m, scratch);
   mj_fwdVelocity(m, scratch);
-  KineticEnergy(m, scratch, out);
+  const EnergyState energy = KineticEnergy(m, scratch);
+  out[0] = energy.bodies;
+  out[1] = energy.flow;
 }

@@ -18,7 +18,25 @@ enum Answer { kKinetic = 0, kFeed = 1, kDissipation = 2 };
 struct Balance {
   mjtNum kinetic;      // of bodies and flow [J]
   mjtNum power;        // of all forces that do work [W]
-  mjtNum dissipation;  // by drag and damping [W]
+  mjtNum dissipation;  // by drag, damping and the surface [W]
+};
+
+// Holds the fluids of one data still: in a moving flow the added mass does work, and the energy of
+// body and flow says nothing about the integrator.
+class StillFluids {
+ public:
+  StillFluids(const mjModel* m, const mjData* d)
+      : assembly_(const_cast<Assembly*>(FindAssembly(m, d))) {
+    if (assembly_) assembly_->medium.still = true;
+  }
+  ~StillFluids() {
+    if (assembly_) assembly_->medium.still = false;
+  }
+  StillFluids(const StillFluids&) = delete;
+  StillFluids& operator=(const StillFluids&) = delete;
+
+ private:
+  Assembly* assembly_;
 };
 
 // Add J' f of the added-mass terms and of the drag terms of every body.
@@ -57,15 +75,14 @@ Balance Evaluate(const mjModel* m, mjData* d) {
     const mjtNum* applied = d->xfrc_applied + 6 * body;
     mj_applyFT(m, d, applied, applied + 3, d->xipos + 3 * body, body, force);
   }
-  mjtNum kinetic[2];
-  KineticEnergy(m, d, kinetic);
-  out.kinetic = kinetic[0] + kinetic[1];
+  const EnergyState energy = KineticEnergy(m, d);
+  out.kinetic = energy.bodies + energy.flow;
   mju_zero(d->qvel, m->nv);
   mj_fwdVelocity(m, d);
   mju_subFrom(force, d->qfrc_bias, m->nv);
   mju_copy(d->qvel, velocity, m->nv);
-  out.power = mju_dot(force, velocity, m->nv);
-  out.dissipation = -mju_dot(drag, velocity, m->nv);
+  out.power = mju_dot(force, velocity, m->nv) - energy.surface_loss;
+  out.dissipation = energy.surface_loss - mju_dot(drag, velocity, m->nv);
   mj_freeStack(d);
   return out;
 }
@@ -77,9 +94,10 @@ using namespace fluid_sim;
 
 // Kinetic energy of bodies and flow at the state in d [J]; the power that the integrator adds to it
 // by itself [W], (T1 - T0)/h less the mean power of the forces over one step; and the power that
-// drag and damping take out [W]. The step is taken on `scratch`.
+// drag and damping take out [W]. The step is taken on `scratch`, in still fluids.
 FSR_API void fsr_energy_feed(const mjModel* m, const mjData* d, mjData* scratch, double* out) {
   const QuietWarnings quiet;
+  const StillFluids still(m, scratch);
   mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
   const Balance start = Evaluate(m, scratch);
   mj_step(m, scratch);

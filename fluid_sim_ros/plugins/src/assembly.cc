@@ -205,22 +205,24 @@ const Assembly* FindAssembly(const mjModel* m, const mjData* d) {
   return first < 0 ? nullptr : Stored(d, first);
 }
 
-void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]) {
+EnergyState KineticEnergy(const mjModel* m, mjData* d) {
+  EnergyState out;
   mj_makeM(m, d);
-  out[0] = out[1] = 0;
   for (int i = 0; i < m->nv; ++i) {  // lower triangle: off-diagonal entries count twice
     const int row = m->M_rowadr[i], last = row + m->M_rownnz[i] - 1;
     mjtNum momentum = 0.5 * d->M[last] * d->qvel[i];
     for (int k = row; k < last; ++k) momentum += d->M[k] * d->qvel[m->M_colind[k]];
-    out[0] += momentum * d->qvel[i];
+    out.bodies += momentum * d->qvel[i];
   }
   const Assembly* assembly = FindAssembly(m, d);
-  if (!assembly) return;
+  if (!assembly) return out;
   for (const BodyFluid& body : assembly->bodies) {
     BodyForces forces;
     EvaluateBody(m, d, assembly->medium, body, BodyMotion(m, d, body), false, &forces);
-    out[1] += forces.fluid_energy;
+    out.flow += forces.fluid_energy;
+    out.surface_loss += forces.surface_loss;
   }
+  return out;
 }
 
 void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],

@@ -29,9 +29,13 @@ struct Assembly {
 // The assembly of a data, or null for a model without fluid_sim plugins.
 const Assembly* FindAssembly(const mjModel* m, const mjData* d);
 
-// Kinetic energy [J]: of the bodies, and of the flow that their added masses stand for.
-// `d` must hold positions and velocities; its inertia matrix is rewritten.
-void KineticEnergy(const mjModel* m, mjData* d, mjtNum out[2]);
+// Kinetic energy [J] of the bodies and of the flow that their added masses stand for, and the power
+// [W] that both lose where the surface passes. `d` must hold positions and velocities; its inertia
+// matrix is rewritten.
+struct EnergyState {
+  mjtNum bodies = 0, flow = 0, surface_loss = 0;
+};
+EnergyState KineticEnergy(const mjModel* m, mjData* d);
 
 // Add the plugin's terms of `body` in world axes about `point_w`. With `acceleration` the added
 // mass also resists d->qacc. Both need positions and velocities of the state in question.

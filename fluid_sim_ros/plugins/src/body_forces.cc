@@ -51,6 +51,14 @@ void AddSlamming(const BodyFluid& body, const Flow& flow, const mjtNum nu[6], mj
   if (secant) AddScaled36(out->secant, body.a, rate);
 }
 
+// Power that leaves with the surface: on entry slamming takes twice what the flow gains, on exit
+// the flow that is left behind keeps its energy. nu'A nu/2 at the rate of A either way.
+mjtNum SurfaceLoss(const BodyFluid& body, const mjtNum nu[6], mjtNum rate) {
+  mjtNum momentum[6];
+  MultiplyMatrix6(momentum, body.a, nu);
+  return 0.5 * rate * mju_dot(momentum, nu, 6);
+}
+
 // rho V (Du/Dt - g) at the centre of the displaced volume: Archimedes and the pressure gradient
 // of the accelerating flow.
 void AddBuoyancy(const mjModel* m, const BodyFluid& body, const Flow& flow,
@@ -201,6 +209,8 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
     if (body.added_mass) {
       AddAddedMass(m, body, flow, motion, nu, flow_accel_b, lower_density, out);
       if (slamming) AddSlamming(body, flow, nu, growth[i], secant, out);
+      if (growth[i] != 0)
+        out->surface_loss += SurfaceLoss(body, nu, slamming ? growth[i] : -growth[i]);
     }
     if (body.buoyant) AddBuoyancy(m, body, flow, immersion, motion, flow_accel_b, out);
     // a rotational gust is felt by drag and damping; the added mass is that of a uniform flow

@@ -25,6 +25,7 @@ struct BodyForces {
   mjtNum inertia[36] = {};          // added mass now: wetted share and densities included
   mjtNum secant[36] = {};           // D_s of the damping forces: f = -D_s nu at this state
   mjtNum fluid_energy = 0;          // kinetic energy of the displaced flow, nu'A nu/2 [J]
+  mjtNum surface_loss = 0;          // what entry (slamming) and exit take of it and the body [W]
 };
 
 // From qvel alone for a free tree, else from MuJoCo's position and velocity stages.

@@ -71,7 +71,7 @@ Immersion Immerse(const mjData* d, const Medium& medium, const BodyFluid& body,
   mju_copy3(out.moment, body.solid_moment);
   if (!medium.in_charge() || !medium.has_surface || body.solids.empty()) return out;
   Plane plane;
-  if (medium.waves.any()) {
+  if (medium.wavy()) {
     mjtNum middle[3], middle_w[3];
     mju_scl3(middle, body.solid_moment, 1 / body.solid_volume);
     Rotate(middle_w, motion.rotation, middle);

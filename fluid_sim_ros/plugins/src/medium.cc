@@ -48,6 +48,7 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
   const mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
   const bool on = state[kOn] > 0;
   FlowSample flow;
+  if (medium.still) return flow;
   if (lower) {
     AddStream(medium.current, CurrentDrive(medium, state), d->time, point_w[2], &flow);
     if (on) AddGrid(medium.current_grid, m, d->time, point_w, &flow);
@@ -96,7 +97,7 @@ mjtNum LowerViscosity(const Medium& medium, const mjModel* m) {
 }
 
 mjtNum SurfaceHeight(const Medium& medium, const mjData* d, const mjtNum point_w[3]) {
-  if (!medium.waves.any()) return medium.surface;
+  if (!medium.wavy()) return medium.surface;
   return WaveHeight(medium.waves, d->time, point_w);
 }
 

@@ -57,8 +57,10 @@ struct Medium {
   int current_noise = 0, wind_noise = 0, turbulence_state = 0;
   int turbulence_size = 0;  // per vehicle
   Waves waves;
+  bool still = false;  // held without motion and waves, for a look at the integrator alone
 
   bool in_charge() const { return instance >= 0 && !equal; }
+  bool wavy() const { return waves.any() && !still; }
 };
 
 extern const char* const kMediumAttributes[];
