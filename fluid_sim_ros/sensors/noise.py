@@ -73,7 +73,8 @@ class Errors:
         self._random = bool(self._white.any() or self._walk.any() or self._dither.any())
         self._rounds = bool(self._rounded.any())
         self._saturates = any(c.range for c in stated)
-        self._key = np.random.SeedSequence([seed, *name.encode()]).generate_state(2, np.uint64)
+        entropy = [seed % (1 << 64), *name.encode()]
+        self._key = np.random.SeedSequence(entropy).generate_state(2, np.uint64)
         self._block = -1
         self._added = np.zeros((BLOCK, self._width))
         #: Bias at the begin of each block that was drawn so far.

@@ -224,14 +224,13 @@ class Sensor(ABC):
         self.fresh = False
         if step % self.period == 0:
             index = step // self.period
-            row = self._rows[index % len(self._rows)] if self.latency else self.values
+            row = self._rows[index % len(self._rows)]
             if self._measure(row):
                 self.saturated += self._errors.apply(index, row)
                 self._pending.append((step + self.latency, time_ns, row))
         while self._pending and self._pending[0][0] <= step:
             _, self.time_ns, row = self._pending.popleft()
-            if self.latency:
-                self.values[:] = row
+            self.values[:] = row
             self.fresh = True
         if self.fresh:
             self._convert()
@@ -273,4 +272,5 @@ class Sensor(ABC):
         self._step, self.fresh, self.time_ns = saved.step, saved.fresh, saved.time_ns
         self.values[:] = saved.values
         self._pending = deque((due, ns, row.copy()) for due, ns, row in saved.pending)
-        self._convert()
+        if self.time_ns >= 0:
+            self._convert()
