@@ -1,4 +1,4 @@
-"""Check that each link and picture of README.md and doc/*.md leads to a file or heading."""
+"""Check that each link and picture of the Markdown pages leads to a file or heading."""
 
 import re
 import sys
@@ -20,7 +20,8 @@ def anchors(page: Path) -> set[str]:
 def broken_links(root: Path) -> list[str]:
     """Return one line for each link that leads nowhere; links to the web are not followed."""
     faults = []
-    for page in [root / 'README.md', *sorted((root / 'doc').rglob('*.md'))]:
+    tops = [path for name in ('README.md', 'BENCHMARKS.md') if (path := root / name).exists()]
+    for page in [*tops, *sorted((root / 'doc').rglob('*.md'))]:
         text = CODE.sub('', page.read_text(encoding='utf-8'))
         for link in LINK.findall(text) + HTML_LINK.findall(text):
             if re.match(r'[a-z]+:', link):

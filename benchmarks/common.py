@@ -25,18 +25,45 @@ def arguments(doc: str | None, name: str) -> argparse.Namespace:
     return parser.parse_args()
 
 
+def commit() -> str:
+    """Return the commit that is measured, marked where the measured files differ from it."""
+
+    def git(*words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            ['git', *words], cwd=ROOT, capture_output=True, text=True, check=False
+        )
+
+    head = git('rev-parse', '--short=12', 'HEAD').stdout.strip()
+    measured = ('fluid_sim_ros', 'models', 'config', 'benchmarks/*.py')
+    changed = head and git('diff', '--quiet', 'HEAD', '--', *measured).returncode
+    return (head or 'unknown') + ('-dirty' if changed else '')
+
+
+def machine() -> dict[str, Any]:
+    """Return processor, cores, operating system and how busy the machine is."""
+    info = Path('/proc/cpuinfo')
+    lines = info.read_text(encoding='utf-8').splitlines() if info.exists() else []
+    models = [line.split(':', 1)[1].strip() for line in lines if line.startswith('model name')]
+    try:
+        system = platform.freedesktop_os_release()['PRETTY_NAME']
+    except OSError:
+        system = platform.platform(terse=True)
+    return {
+        'cpu': models[0] if models else platform.machine(),
+        'cores': os.cpu_count(),
+        'os': f'{system}, {platform.system()} {platform.release().split("-")[0]}',
+        'load_average': os.getloadavg()[0],
+    }
+
+
 def write(path: Path, result: Mapping[str, Any]) -> None:
-    """Write a result with the commit, the date and the versions that it was measured with."""
-    head = subprocess.run(
-        ['git', 'rev-parse', '--short=12', 'HEAD'],
-        cwd=ROOT, capture_output=True, text=True, check=False,
-    ).stdout.strip()  # fmt: skip
+    """Write a result with the commit, the date, the versions and the machine it is from."""
     measured = {
-        'commit': head or 'unknown',
+        'commit': commit(),
         'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
         'mujoco': mujoco.__version__,
         'python': platform.python_version(),
-        'cores': os.cpu_count(),
+        **machine(),
         **result,
     }
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -8,8 +8,6 @@ The ratio to the echo is what the controller adds. Run:
 """
 
 import argparse
-import datetime
-import json
 import os
 import signal
 import statistics
@@ -19,6 +17,7 @@ import time
 from pathlib import Path
 
 import rclpy
+from common import RESULTS, write
 from nav_msgs.msg import Odometry
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -29,7 +28,7 @@ from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
 from fluid_sim_ros.vehicle_plant import plant_of
 
-RESULT = Path(__file__).parent / 'results' / 'controller_latency.json'
+RESULT = RESULTS / 'controller_latency.json'
 ROUNDS, QUICK_ROUNDS, WARM_UP = 5000, 1000, 200
 RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 CASES = {
@@ -149,21 +148,13 @@ def main() -> None:
         rows[name]['added_us'] = round(rows[name]['median_us'] - rows['echo']['median_us'], 1)
         print(f'{name:16}', rows[name])
     rclpy.shutdown()
-    commit = subprocess.run(
-        ['git', 'rev-parse', 'HEAD'], cwd=Path(__file__).parent, capture_output=True, text=True,
-        check=False,
-    ).stdout.strip()  # fmt: skip
     result = {
         'what': 'round trip odometry -> thrust command between two processes, wall time',
-        'commit': commit,
-        'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
-        'cores': os.cpu_count(),
         'rounds': rounds,
         'cases': rows,
         'law_step_us': law_steps(rounds),
     }
-    options.json.parent.mkdir(parents=True, exist_ok=True)
-    options.json.write_text(json.dumps(result, indent=2) + '\n')
+    write(options.json, result)
     print('law steps [us]  ', result['law_step_us'])
 
 

@@ -7,13 +7,8 @@ spin, wind, density, viscosity and coefficients. A term is isolated by switching
 relative to the term itself. Run: ``python benchmarks/fluid_terms.py [--quick] [--json PATH]``.
 """
 
-import argparse
-import datetime
-import json
-import subprocess
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import NamedTuple
 
 import mujoco
@@ -22,7 +17,6 @@ import numpy as np
 from fluid_sim_ros.physics import added_mass, drag, inertia_box, kappa, lift, projection
 from fluid_sim_ros.physics.arrays import Array
 
-RESULT = Path(__file__).parent / 'results' / 'fluid_terms.json'
 CASES = 2000
 QUICK_CASES = 200
 # Relative to the term; the engine integrates kappa by a 15-point rule, hence the wider bound.
@@ -211,27 +205,11 @@ def measure(
     return {term: np.array(values) for term, values in errors.items()}
 
 
-def commit_hash() -> str:
-    """Return the commit that was measured, marked when the measured files differ from it."""
-    root = Path(__file__).parents[1]
-
-    def git(*words: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            ['git', *words], cwd=root, capture_output=True, text=True, check=False
-        )
-
-    head = git('rev-parse', '--short=12', 'HEAD').stdout.strip()
-    measured = ('fluid_sim_ros/physics', 'benchmarks/fluid_terms.py')
-    changed = head and git('diff', '--quiet', 'HEAD', '--', *measured).returncode
-    return (head or 'unknown') + ('-dirty' if changed else '')
-
-
 def main() -> None:
     """Measure, print a table and write the JSON."""
-    parser = argparse.ArgumentParser(description=__doc__.strip().splitlines()[0])
-    parser.add_argument('--json', type=Path, default=RESULT, help='where to write the result')
-    parser.add_argument('--quick', action='store_true', help=f'{QUICK_CASES} cases per term')
-    options = parser.parse_args()
+    from common import arguments, write  # here: tests import this file from elsewhere
+
+    options = arguments(__doc__, 'fluid_terms')
     cases = QUICK_CASES if options.quick else CASES
     errors = measure(cases)
     terms = {
@@ -246,9 +224,6 @@ def main() -> None:
     seed_text = measure(cases, (seed_text_case,))
     result = {
         'what': 'relative error of physics/ against qfrc_fluid, per term',
-        'commit': commit_hash(),
-        'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
-        'mujoco': mujoco.__version__,
         'numpy': np.__version__,
         'cases_per_term': cases,
         'terms': terms,
@@ -257,8 +232,7 @@ def main() -> None:
             for name, values in seed_text.items()
         },
     }
-    options.json.parent.mkdir(parents=True, exist_ok=True)
-    options.json.write_text(json.dumps(result, indent=2) + '\n')
+    write(options.json, result)
     for term, row in terms.items():
         verdict = 'ok' if row['passed'] else 'ABOVE LIMIT'
         print(f'{term:24} median {row["median"]:.1e}  max {row["max"]:.1e}  {verdict}')

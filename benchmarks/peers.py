@@ -12,7 +12,6 @@ themselves, the timestep or tolerance only bounds them; fluid_sim and MuJoCo tak
 two positions in one call, JSBSim and RotorPy need one call from Python for each step.
 """
 
-import os
 import random
 import statistics
 import time
@@ -20,7 +19,6 @@ from collections.abc import Iterable, Sequence
 from importlib.metadata import version
 from importlib.util import find_spec
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -154,22 +152,42 @@ def _crossing(curve: Sequence[tuple[float, float]], target: float) -> dict[str, 
 
 
 def table(tasks: dict[str, Any]) -> str:
-    """Return the times at equal error as text."""
-    lines = []
-    for name, task in tasks.items():
-        for target, row in task['time_at'].items():
-            lines.append(f'{name}, {target} m:')
-            for peer, found in row.items():
-                cost = 'not reached'
-                if found:
-                    cost = f'{"<=" if found["bound"] else "  "} {found["us_per_s"]:9.0f} us/s'
-                lines.append(f'  {peer:24} {cost}')
-    return '\n'.join(lines)
+    """Return the times at equal error as a table in Markdown, the fastest of a column bold."""
+    columns = [
+        (f'{task["title"]}, {target} m', row)
+        for task in tasks.values()
+        for target, row in task['time_at'].items()
+    ]
+    peers = dict.fromkeys(peer for task in tasks.values() for peer in sorted(peers_of(task)))
+    lines = [
+        'Processor time per simulated second [us] at an error; `<` : better than that at the coarsest',
+        'setting already.\n',
+        '| | ' + ' | '.join(title for title, _ in columns) + ' |',
+        '|---' * (len(columns) + 1) + '|',
+    ]
+    for peer in peers:
+        cells = (
+            _cell(row[peer], next(iter(row)) == peer) if peer in row else '' for _, row in columns
+        )
+        lines.append(f'| {peer} | ' + ' | '.join(cells) + ' |')
+    return '\n'.join(lines) + '\n'
+
+
+def peers_of(task: dict[str, Any]) -> set[str]:
+    """Return who takes part in a task."""
+    return {found['peer'] for found in task['points']}
+
+
+def _cell(found: dict[str, Any] | None, fastest: bool) -> str:
+    if not found:
+        return 'not reached'
+    cost = ('< ' if found['bound'] else '') + f'{found["us_per_s"]:.0f}'
+    return f'**{cost}**' if fastest else cost
 
 
 def measure(quick: bool) -> dict[str, Any]:
     """Return the whole comparison."""
-    ladder, load = Ladder(quick), os.getloadavg()[0]
+    ladder = Ladder(quick)
     tasks = {}
     for make in TASKS:
         task = make()
@@ -179,7 +197,6 @@ def measure(quick: bool) -> dict[str, Any]:
     tasks['underwater'] = {'title': 'BlueROV2 Heavy in a current'} | compare(runs, ladder.repeats)
     return {
         'versions': {name: version(name) for name in (*PEERS, 'numpy', 'scipy')},
-        'load_average': [load, os.getloadavg()[0]],
         'repeats': ladder.repeats,
         'duration_s': DURATION,
         'tasks': tasks,
@@ -196,7 +213,8 @@ def main() -> None:
     result = measure(options.quick)
     print(table(result['tasks']))
     write(options.json, result)
-    draw(result, Path(options.json).with_suffix('.png'))
+    options.json.with_name('peers_table.md').write_text(table(result['tasks']), encoding='utf-8')
+    draw(result, options.json.with_suffix('.png'))
 
 
 if __name__ == '__main__':
