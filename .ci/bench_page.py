@@ -1,10 +1,9 @@
 """
 Write BENCHMARKS.md from the results of the benchmarks.
 
-What it shows of each result stands in benchmarks/key_numbers.yaml. The committed
-results become the page at the top (also ``make docs``; a test fails when it is not what would be
-written); another folder, the argument, gets its own.
-
+What it shows of each result stands in benchmarks/key_numbers.yaml. The committed results become
+the page at the top (also ``make docs``; a test fails when it is not what would be written);
+another folder, the argument, gets its own.
 """
 
 import ast

@@ -160,15 +160,12 @@ def table(tasks: dict[str, Any]) -> str:
     ]
     peers = dict.fromkeys(peer for task in tasks.values() for peer in sorted(peers_of(task)))
     lines = [
-        'Processor time per simulated second [us] at an error; `<` : better than that at the coarsest',
-        'setting already.\n',
+        'Processor time per simulated second [us] at an error; "<": the coarsest setting is better.\n',
         '| | ' + ' | '.join(title for title, _ in columns) + ' |',
         '|---' * (len(columns) + 1) + '|',
     ]
     for peer in peers:
-        cells = (
-            _cell(row[peer], next(iter(row)) == peer) if peer in row else '' for _, row in columns
-        )
+        cells = [_cell(peer, row) for _, row in columns]
         lines.append(f'| {peer} | ' + ' | '.join(cells) + ' |')
     return '\n'.join(lines) + '\n'
 
@@ -178,11 +175,13 @@ def peers_of(task: dict[str, Any]) -> set[str]:
     return {found['peer'] for found in task['points']}
 
 
-def _cell(found: dict[str, Any] | None, fastest: bool) -> str:
-    if not found:
+def _cell(peer: str, row: dict[str, Any]) -> str:
+    if peer not in row:
+        return ''
+    if not row[peer]:
         return 'not reached'
-    cost = ('< ' if found['bound'] else '') + f'{found["us_per_s"]:.0f}'
-    return f'**{cost}**' if fastest else cost
+    cost = ('< ' if row[peer]['bound'] else '') + f'{row[peer]["us_per_s"]:.0f}'
+    return f'**{cost}**' if peer == next(iter(row)) else cost
 
 
 def measure(quick: bool) -> dict[str, Any]:
