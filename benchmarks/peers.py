@@ -160,7 +160,7 @@ def table(tasks: dict[str, Any]) -> str:
     ]
     peers = dict.fromkeys(peer for task in tasks.values() for peer in sorted(peers_of(task)))
     lines = [
-        'Processor time per simulated second [us] at an error; "<": the coarsest setting is better.\n',
+        'Processor time per simulated second [us] at an error; "<": the coarsest run is better.\n',
         '| | ' + ' | '.join(title for title, _ in columns) + ' |',
         '|---' * (len(columns) + 1) + '|',
     ]

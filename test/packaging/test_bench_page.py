@@ -1,0 +1,78 @@
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = ROOT / 'benchmarks' / 'results'
+
+
+@pytest.fixture(scope='module')
+def bench_page():
+    """Import the script, which is in no package."""
+    spec = importlib.util.spec_from_file_location('bench_page', ROOT / '.ci' / 'bench_page.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_page_is_what_the_results_say(bench_page):
+    # when this fails: make docs
+    assert (ROOT / 'BENCHMARKS.md').read_text() == bench_page.page()
+
+
+def test_the_page_shows_every_result_with_its_commit(bench_page):
+    text = bench_page.page()
+    results = sorted(RESULTS.glob('*.json'))
+    assert len(results) > 20
+    for path in results:
+        assert f'\n## {path.stem}\n' in text
+        assert f'commit {json.loads(path.read_text())["commit"][:12]}' in text
+
+
+def test_every_picture_and_table_among_the_results_is_shown(bench_page):
+    text = bench_page.page()
+    for path in RESULTS.glob('*.png'):
+        assert f'(benchmarks/results/{path.name})' in text
+    for path in RESULTS.glob('*.md'):
+        assert path.read_text().strip() in text
+
+
+def test_a_folder_of_short_runs_gets_a_page_of_its_own(bench_page, tmp_path):
+    # of a run too short for all its key numbers, and of a benchmark without any
+    (tmp_path / 'remus.json').write_text('{"cores": 2, "decay": {"yaw": 2e-3}}')
+    (tmp_path / 'new.json').write_text(
+        '{"cpu": "An 8080", "cores": 1, "commit": "abc", "runs": 7, "good": true, "rows": [1]}'
+    )
+    text = bench_page.page(tmp_path)
+
+    assert '| An 8080; 1 cores | new |' in text
+    assert '| runs | 7 |  |  |' in text
+    assert '| good | yes |  |  |' in text
+    assert 'rows' not in text
+    assert '| 0.002 |  |  |' in text
+    assert bench_page.page_of(tmp_path) == tmp_path / 'BENCHMARKS.md'
+
+
+@pytest.mark.parametrize(
+    ('result', 'entry', 'value', 'met'),
+    [
+        ({'a': {'b': -3.0}}, {'at': ['a', 'b']}, -3.0, None),
+        ({'a': [{'b': 1.0}, {'b': -2.0}]}, {'at': ['a', '*', 'b'], 'target': '<= 1'}, -2.0, False),
+        ({'a': {'x': 0.8, 'y': 2.0}}, {'at': ['a', '*'], 'target': '>= 0.9'}, 0.8, False),
+        ({'a': [1.0, 6.0], 'b': [4.0, 8.0]}, {'at': ['a', '*'], 'over': ['b', '*'],
+         'target': '<= 1'}, 0.75, True),
+        ({'a': [True, False]}, {'at': ['a', '*'], 'target': 'yes'}, False, False),
+        ({'a': None}, {'at': ['a'], 'target': '<= 1'}, None, False),
+    ],
+)  # fmt: skip
+def test_the_worst_of_the_values_is_judged(bench_page, result, entry, value, met):
+    shown = bench_page.Shown(result, {'what': 'it', **entry})
+    assert shown.value == value
+    assert shown.met is met
+
+
+def test_a_key_number_that_leads_nowhere_is_refused(bench_page):
+    with pytest.raises(ValueError, match=r"a ratio: nothing at \['cost', 'b'\]"):
+        bench_page.Shown({'cost': {'a': 1}}, {'what': 'a ratio', 'at': ['cost', 'b']})
