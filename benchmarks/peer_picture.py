@@ -1,4 +1,4 @@
-"""The picture of peers.py: error against time, one panel for each task."""
+"""The picture of peer_simulators.py: error against time, one panel for each task."""
 
 from pathlib import Path
 from typing import Any

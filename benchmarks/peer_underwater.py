@@ -15,8 +15,8 @@ from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
-from peers_mujoco import milliseconds, simulation_runs
-from peers_tasks import (
+from peer_mujoco import milliseconds, simulation_runs
+from peer_tasks import (
     SAMPLE,
     TIMES,
     Array,

@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 from common import arguments, write
-from peers_mujoco import own_runs, stock_runs
-from peers_tasks import (
+from peer_mujoco import own_runs, stock_runs
+from peer_tasks import (
     DURATION,
     TASKS,
     TIMES,
@@ -35,7 +35,7 @@ from peers_tasks import (
     air_start,
     scipy_runs,
 )
-from peers_underwater import underwater_runs
+from peer_underwater import underwater_runs
 
 PEERS = ('jsbsim', 'rotorpy')
 TARGETS = (1e-3, 1e-6)  # errors at which times are compared [m]
@@ -65,8 +65,8 @@ def missing() -> str:
 
 def air_runs(task: AirTask, ladder: Ladder) -> list[Run]:
     """Return the runs of every contestant at a task in air."""
-    from peers_jsbsim import jsbsim_runs
-    from peers_rotorpy import rotorpy_runs
+    from peer_jsbsim import jsbsim_runs
+    from peer_rotorpy import rotorpy_runs
 
     return [
         *own_runs(task, ladder.timesteps),
@@ -204,15 +204,17 @@ def measure(quick: bool) -> dict[str, Any]:
 
 def main() -> None:
     """Measure, print, write JSON and picture."""
-    options = arguments(__doc__, 'peers')
+    options = arguments(__doc__, 'peer_simulators')
     if line := missing():
-        raise SystemExit(f'peers: {line}')
-    from peers_picture import draw
+        raise SystemExit(f'peer_simulators: {line}')
+    from peer_picture import draw
 
     result = measure(options.quick)
     print(table(result['tasks']))
     write(options.json, result)
-    options.json.with_name('peers_table.md').write_text(table(result['tasks']), encoding='utf-8')
+    options.json.with_name('peer_simulators_table.md').write_text(
+        table(result['tasks']), encoding='utf-8'
+    )
     draw(result, options.json.with_suffix('.png'))
 
 

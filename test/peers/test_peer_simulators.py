@@ -1,12 +1,12 @@
 import sys
 
 import numpy as np
-import peers
+import peer_simulators as peers
 import pytest
-from peers_mujoco import own_runs, stock_runs
-from peers_picture import draw
-from peers_tasks import TASKS, TIMES, Diverged, air_rates, air_start, scipy_runs
-from peers_underwater import lagged_runs, own_model, plain_runs, reference, simulation_runs
+from peer_mujoco import own_runs, stock_runs
+from peer_picture import draw
+from peer_tasks import TASKS, TIMES, Diverged, air_rates, air_start, scipy_runs
+from peer_underwater import lagged_runs, own_model, plain_runs, reference, simulation_runs
 
 from fluid_sim_ros.lab.closed_forms import scene_of
 
@@ -15,11 +15,11 @@ def contestants(task):
     """Return runs of every simulator at a task, RotorPy and JSBSim where they are installed."""
     runs = own_runs(task, [0.02]) + stock_runs(task, [0.02])
     if peers.find_spec('jsbsim'):
-        from peers_jsbsim import jsbsim_runs
+        from peer_jsbsim import jsbsim_runs
 
         runs += jsbsim_runs(task, [0.02])
     if peers.find_spec('rotorpy'):
-        from peers_rotorpy import rotorpy_runs
+        from peer_rotorpy import rotorpy_runs
 
         runs += rotorpy_runs(task, [0.1])
     return runs
@@ -100,15 +100,15 @@ def test_a_comparison_becomes_text_and_a_picture(underwater, tmp_path):
     assert lost['peer'] == 'MuJoCo lagged'
     assert 0 < lost['diverged_at_s'] < 5
     assert 'fluid_sim RK4' in peers.table(result['tasks'])
-    assert draw(result, tmp_path / 'peers.png').stat().st_size > 10_000
+    assert draw(result, tmp_path / 'picture.png').stat().st_size > 10_000
 
 
 def test_without_the_peers_one_line_says_what_to_install(monkeypatch):
     monkeypatch.setattr(peers, 'find_spec', lambda name: None)
-    monkeypatch.setattr(sys, 'argv', ['peers.py'])
+    monkeypatch.setattr(sys, 'argv', ['peer_simulators.py'])
     with pytest.raises(SystemExit) as end:
         peers.main()
     line = str(end.value)
-    assert line.startswith('peers: jsbsim, rotorpy not installed')
+    assert line.startswith('peer_simulators: jsbsim, rotorpy not installed')
     assert 'fluid_sim_ros[peers]' in line
     assert '\n' not in line

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
-from peers_mujoco import milliseconds
-from peers_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, Run
+from peer_mujoco import milliseconds
+from peer_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, Run
 from rotorpy.vehicles.hummingbird_params import quad_params
 from rotorpy.vehicles.multirotor import Multirotor
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
-from peers_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, G, Run, air_start
+from peer_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, G, Run, air_start
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.lab.closed_forms import keyframe, scene_of

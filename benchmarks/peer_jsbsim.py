@@ -13,8 +13,8 @@ from tempfile import TemporaryDirectory
 
 import jsbsim
 import numpy as np
-from peers_mujoco import milliseconds
-from peers_tasks import MASS, SAMPLE, TIMES, AirTask, Array, G, Run, air_rates, air_start
+from peer_mujoco import milliseconds
+from peer_tasks import MASS, SAMPLE, TIMES, AirTask, Array, G, Run, air_rates, air_start
 from scipy.integrate import solve_ivp
 
 _FOOT = 0.3048  # [m]
