@@ -210,11 +210,10 @@ def main() -> None:
     from peer_picture import draw
 
     result = measure(options.quick)
-    print(table(result['tasks']))
+    rows = table(result['tasks'])
+    print(rows)
     write(options.json, result)
-    options.json.with_name('peer_simulators_table.md').write_text(
-        table(result['tasks']), encoding='utf-8'
-    )
+    options.json.with_name('peer_simulators_table.md').write_text(rows, encoding='utf-8')
     draw(result, options.json.with_suffix('.png'))
 
 

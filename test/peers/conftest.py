@@ -1,4 +1,4 @@
-"""These tests run a small part of benchmarks/peer_simulators.py, with what of the peers is installed."""
+"""A small part of benchmarks/peer_simulators.py, with what of the peers is installed."""
 
 import sys
 from pathlib import Path
