@@ -192,6 +192,8 @@ class Diagnostics:
             'kinetic_energy_J': f'{balance.kinetic:.6g}',
             'integrator_feed_W': f'{balance.feed:.3g}',
             'dissipation_W': f'{balance.dissipation:.3g}',
+            'flow_by': self._simulation.flow_road,
+            'seed': self._simulation.seed,
             **counts,
         }
         raised = [name for name, count in counts.items() if count]

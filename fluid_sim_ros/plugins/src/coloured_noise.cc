@@ -132,6 +132,16 @@ mjtNum Needed(const ColouredNoise& noise, mjtNum time) {
   return std::floor(time / noise.tick + 0.5) + 3;
 }
 
+// value = sum of w times the rows, rate = sum of v times the rows; the width is 3 or 6.
+template <int kWidth>
+void Combine(const mjtNum* row, const mjtNum w[4], const mjtNum v[4], mjtNum* value, mjtNum* rate) {
+  for (int i = 0; i < kWidth; ++i) {
+    const mjtNum a = row[i], b = row[kWidth + i], c = row[2 * kWidth + i], e = row[3 * kWidth + i];
+    value[i] = w[0] * a + w[1] * b + w[2] * c + w[3] * e;
+    rate[i] = v[0] * a + v[1] * b + v[2] * c + v[3] * e;
+  }
+}
+
 }  // namespace
 
 int ColouredNoise::StateSize() const { return NoiseStateSize(states, outputs); }
@@ -199,12 +209,9 @@ void SampleNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t s
   const mjtNum r = 0.5 / noise.tick;
   const mjtNum v[4] = {r * (4 * s - 1 - 3 * s2), r * (9 * s2 - 10 * s), r * (8 * s - 9 * s2 + 1),
                        r * (3 * s2 - 2 * s)};
-  const int width = noise.outputs;
-  const mjtNum* p = state + 1 + noise.states + static_cast<int>(before - 1 - oldest) * width;
-  for (int i = 0; i < width; ++i, ++p) {
-    value[i] = w[0] * p[0] + w[1] * p[width] + w[2] * p[2 * width] + w[3] * p[3 * width];
-    rate[i] = v[0] * p[0] + v[1] * p[width] + v[2] * p[2 * width] + v[3] * p[3 * width];
-  }
+  const mjtNum* p =
+      state + 1 + noise.states + static_cast<int>(before - 1 - oldest) * noise.outputs;
+  (noise.outputs == 3 ? Combine<3> : Combine<6>)(p, w, v, value, rate);
 }
 
 }  // namespace fluid_sim

@@ -29,7 +29,7 @@ struct ColouredNoise {
   mjtNum tick = 0;  // [s]
   int count = 0;    // of filters
   Filter filter[kMostFilters];
-  int states = 0, outputs = 0;
+  int states = 0, outputs = 0;  // outputs: 3 or 6
 
   int StateSize() const;
 };

@@ -63,7 +63,9 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
   const int vehicle = medium.vehicle[body];
   if (windy && medium.turbulence.kind && vehicle >= 0 && on) {
     mjtNum arm[3];
-    const mjtNum* origin = d->xpos + 3 * m->body_rootid[body];
+    // of a free body from the state itself: between steps xpos is that of the step before
+    const int address = medium.origin[body];
+    const mjtNum* origin = address >= 0 ? d->qpos + address : d->xpos + 3 * m->body_rootid[body];
     for (int i = 0; i < 3; ++i) arm[i] = point_w[i] - origin[i];
     AddTurbulence(medium.turbulence, Seed(state), vehicle, d->time, point_w[2], arm,
                   state + TurbulenceAddress(medium, vehicle), &flow);

@@ -53,6 +53,7 @@ struct Medium {
   bool curl = false;         // rotational gusts are half the curl of current and wind
   mjtNum seed = 0;           // of all noise
   std::vector<int> vehicle;  // of each body, or -1 for what stands still
+  std::vector<int> origin;   // of each body's vehicle: address in qpos, or -1 without a free joint
   // addresses in the state: of the processes, and of the first vehicle's turbulence
   int current_noise = 0, wind_noise = 0, turbulence_state = 0;
   int turbulence_size = 0;  // per vehicle

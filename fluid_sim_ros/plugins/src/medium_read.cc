@@ -64,6 +64,13 @@ bool ReadRandom(const Config& config, const mjModel* m, Medium* medium) {
     return config.Fail("turbulence_follow needs a timestep of at most turbulence_tick");
   }
   Vehicles(m, &medium->vehicle);
+  medium->origin.assign(m->nbody, -1);
+  for (int body = 1; body < m->nbody; ++body) {
+    const int joint = m->body_jntadr[m->body_rootid[body]];
+    if (joint >= 0 && m->jnt_type[joint] == mjJNT_FREE) {
+      medium->origin[body] = m->jnt_qposadr[joint];
+    }
+  }
   medium->current_noise = kNoiseState;
   medium->wind_noise = medium->current_noise + StreamNoiseSize(config, "current");
   medium->turbulence_state = medium->wind_noise + StreamNoiseSize(config, "wind");
