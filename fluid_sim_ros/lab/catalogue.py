@@ -3,11 +3,11 @@
 from collections.abc import Callable
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab import closed_forms, plates, solved_bodies
+from fluid_sim_ros.lab import closed_forms, plates, scene_problems, solved_bodies
 from fluid_sim_ros.lab.problem import Problem, of_scene
 from fluid_sim_ros.scene import scene_names
 
-#: Problems with a reference of their own; every scene is a problem too.
+#: Problems of the laboratory; every scene is one too.
 PROBLEMS: dict[str, Callable[[], Problem]] = {
     make.__name__: make
     for make in (
@@ -15,6 +15,7 @@ PROBLEMS: dict[str, Callable[[], Problem]] = {
         closed_forms.spin_down, closed_forms.water_pendulum, solved_bodies.kirchhoff,
         solved_bodies.vehicle_in_current, solved_bodies.rov_step, solved_bodies.foil_glide,
         plates.plate_flutter, plates.plate_tumble, plates.plate_chaos,
+        scene_problems.swimmer, scene_problems.quad_in_turbulence,
     )
 }  # fmt: skip
 

@@ -1,0 +1,97 @@
+"""
+The advisor on every scene: what it chooses, what that costs, and whether a finer run agrees.
+
+Each scene at a tolerance of 1 % and of 5 %. A choice is verified by an independent run with a
+fourth of its step on the next richer rung. Cost is wall time per simulated second over that of
+RK4 at 1 ms with everything on, both timed in one interleaved loop. Writes JSON and a table.
+Run: ``python benchmarks/lab_advise.py [--quick] [--json PATH]``.
+"""
+
+import time
+from typing import Any
+
+import numpy as np
+from common import RESULTS, arguments, write
+
+from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.lab.advise import advise, snippet, verify
+from fluid_sim_ros.scene import scene_names
+
+TOLERANCES = (0.01, 0.05)
+QUICK = ('sphere', 'ellipsoid')
+#: These end what they show in contact with the ground, or have no end: shorter.
+DURATIONS = {'x500': 10.0, 'crazyflie': 10.0, 'remus100': 20.0, 'aerosonde': 15.0}
+
+
+def case(scene: str, tolerance: float) -> dict[str, Any]:
+    """Return the advice for a scene, its verification, and the time it took."""
+    begin, processor = time.perf_counter(), time.process_time()
+    try:
+        found = advise(scene, tolerance, duration=DURATIONS.get(scene))
+    except FluidSimError as error:
+        return {'scene': scene, 'tolerance': tolerance, 'fault': str(error)}
+    row = {
+        key: found[key]
+        for key in (
+            'scene', 'tolerance', 'metric', 'duration_s', 'reference', 'choice', 'runner_up',
+            'baseline', 'cheaper_than_baseline', 'missing',
+        )
+    }  # fmt: skip
+    row |= {
+        'advise_wall_s': time.perf_counter() - begin,
+        'advise_cpu_s': time.process_time() - processor,
+    }
+    if found['choice']:
+        row |= {'verified': verify(scene, found), 'yaml': snippet(found)}
+    return row
+
+
+def table(rows: list[dict[str, Any]]) -> str:
+    """Return the choices in Markdown."""
+    lines = [
+        '| Scene | Tolerance | Metric | Fluid | Integrator | Timestep | Error '
+        '| Cheaper than RK4 at 1 ms | Fails at | Verified |',
+        '|---' * 10 + '|',
+    ]
+    for row in rows:
+        head = f'| `{row["scene"]}` | {row["tolerance"]:.0%} | '
+        choice = row.get('choice')
+        if not choice:
+            lines.append(f'{head}| | | | {row.get("missing") or row.get("fault")} | | | |')
+            continue
+        bound = '> 50 ms' if choice['margin_is_a_bound'] else f'{choice["fails_at_s"] * 1e3:g} ms'
+        lines.append(
+            f'{head}{row["metric"]} | {choice["rung"]} | {choice["integrator"]} | '
+            f'{choice["timestep"] * 1e3:g} ms | {choice["error"]:.1%} | '
+            f'{row["cheaper_than_baseline"]:.3g} x | {bound} | {row["verified"]["error"]:.1%} |'
+        )
+    return '\n'.join(lines) + '\n'
+
+
+def main() -> None:
+    """Advise, verify, print, write JSON and table."""
+    options = arguments(__doc__, 'lab_advise')
+    rows = []
+    for scene in QUICK if options.quick else scene_names():
+        for tolerance in TOLERANCES:
+            rows.append(case(scene, tolerance))
+            print(table(rows).splitlines()[-1], flush=True)
+    chosen = [row for row in rows if row.get('choice')]
+    gains = [row['cheaper_than_baseline'] for row in chosen]
+    summary = {
+        'cases': len(rows),
+        'with_a_choice': len(chosen),
+        'verified': sum(row['verified']['within'] for row in chosen),
+        'cheaper_geometric_mean': float(np.exp(np.mean(np.log(gains)))),
+        'cheaper_median': float(np.median(gains)),
+        'longest_advise_wall_s': max(row['advise_wall_s'] for row in chosen),
+        'longest_advise_cpu_s': max(row['advise_cpu_s'] for row in chosen),
+    }
+    print(summary)
+    write(options.json, {'summary': summary, 'rows': rows})
+    if not options.quick:
+        (RESULTS / 'lab_advise_table.md').write_text(table(rows), encoding='utf-8')
+
+
+if __name__ == '__main__':
+    main()
