@@ -8,6 +8,7 @@ Writes JSON, and for the full volume the maps of lab/bodies.py.
 Run: ``python benchmarks/lab_stability.py [--quick] [--json PATH]``.
 """
 
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -62,9 +63,12 @@ def failures() -> dict[str, Any]:
         out[name] = {
             'timestep_s': timestep,
             'fates': words,
-            'one_fails_another_survives': 'stable' in words.values()
-            and len(set(words.values())) > 1,
+            'one_fails_another_survives': len({'stable', *words.values()}) > 1
+            and 'stable' in words.values(),
             'silent': [each for each, word in words.items() if word in SILENT],
+            'silent_and_caught': [
+                each for each, word in words.items() if word in SILENT and found[each].alarm
+            ],
             'alarms': {each: result.alarm for each, result in found.items()},
         }
     return out
@@ -93,12 +97,7 @@ def maps() -> dict[str, Any]:
             result['largest_steps'] = largest_steps(head)
         draw_map(result, path.with_suffix('.png'))
         out[name] = {
-            kind: {
-                word: sum(
-                    row['fate'] == word for row in result['map'] if row['integrator'] == kind
-                )
-                for word in sorted({row['fate'] for row in result['map']})
-            }
+            kind: dict(Counter(row['fate'] for row in result['map'] if row['integrator'] == kind))
             for kind in INTEGRATORS
         }
         print(name, out[name])
@@ -119,12 +118,8 @@ def main() -> None:
         'failures': failures(),
         'false_alarms': false_alarms(50 if options.quick else RUNS),
     }
-    worst = max(
-        row['worst']
-        for by in out['boundaries'].values()
-        for rows in by.values()
-        for row in rows.values()
-    )
+    by_kind = [rows for kinds in out['boundaries'].values() for rows in kinds.values()]
+    worst = max(row['worst'] for rows in by_kind for row in rows.values())
     print(f'boundaries met within {worst:.2g}')
     for name, row in out['failures'].items():
         print(f'{name}: {row["fates"]}')
