@@ -1,5 +1,6 @@
 """The parameter table, parameter files, and ROS_DOMAIN_ID."""
 
+import importlib
 import os
 import re
 
@@ -9,7 +10,7 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.ros import parameters
+from fluid_sim_ros.ros import controller_parameters, parameters
 
 pytestmark = pytest.mark.ros
 
@@ -63,9 +64,14 @@ def test_physics_is_fixed_while_configured_and_pacing_is_not():
 @pytest.mark.parametrize('path', sorted((config_folder() / 'params').glob('*.yaml')), ids=str)
 def test_shipped_parameter_files_hold_known_flat_parameters(path):
     parameters.check_parameter_files(['--params-file', str(path)])
-    (body,) = yaml.safe_load(path.read_text()).values()
-    for name, value in body['ros__parameters'].items():
+    nodes = yaml.safe_load(path.read_text())
+    for name, value in nodes.pop('fluid_sim_node')['ros__parameters'].items():
         assert parameters.check(name, value) is None
+    for node, body in nodes.items():
+        module = importlib.import_module(f'fluid_sim_ros.ros.{node}')
+        for name, value in body['ros__parameters'].items():
+            declared = {**controller_parameters.COMMON, **module.OWN}[name]
+            assert controller_parameters.check(declared, name, value) is None
 
 
 @pytest.mark.parametrize(
