@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
 
 from fluid_sim_ros.lab.colors import COLORS
@@ -12,7 +13,7 @@ from fluid_sim_ros.lab.style import STYLE, save_figure
 _FAMILIES = dict(zip(('fluid_sim', 'MuJoCo', 'JSBSim', 'RotorPy', 'SciPy'), COLORS, strict=False))
 _MARKERS = dict(zip(_FAMILIES, 'osDv^', strict=True))
 _LEAST = 1e-14  # what is less is drawn here [m]
-_GAP = 11  # between two labels [points]
+_GAP, _LETTER = 11, 4.6  # between two labels; width of a letter [points]
 
 
 def draw(result: dict[str, Any], path: Path) -> Path:
@@ -72,16 +73,23 @@ def _cost(found: dict[str, Any]) -> float:
 
 
 def _label(axes: Axes, ends: list[tuple[float, float, str, str]]) -> None:
-    """Write each curve's name at its end, pushed up where two would overlap."""
+    """Write each curve's name at its end, pushed up where it would cover a name or a marker."""
     axes.figure.canvas.draw()
-    points = 72 / axes.figure.dpi
-    placed: list[float] = []
-    for x, y, peer, color in sorted(ends, key=lambda end: end[1]):
-        height = points * axes.transData.transform((x, y))[1]
-        free = height
-        while any(abs(free - other) < _GAP for other in placed):
+    to_pixels, scale = axes.transData.transform, 72 / axes.figure.dpi
+    taken = [
+        scale * to_pixels(vertex)
+        for line in axes.lines[: len(ends)]
+        for vertex in zip(*line.get_data(), strict=True)
+    ]
+    names: list[tuple[float, float, float]] = []  # left, right, height
+    for x, y, peer, color in sorted(ends, key=lambda end: -end[0]):
+        left, height = scale * to_pixels((x, y)) + np.array([7, 0])
+        right, free = left + _LETTER * len(peer), height
+        while any(left < a < right and abs(free - b) < _GAP / 2 for a, b in taken) or any(
+            left < b and a < right and abs(free - h) < _GAP for a, b, h in names
+        ):
             free += 1
-        placed.append(free)
+        names.append((left, right, free))
         axes.annotate(
             peer, (x, y), xytext=(7, free - height - 3), textcoords='offset points', color=color,
             fontsize=8, arrowprops=_line(color) if free - height > _GAP else None,
