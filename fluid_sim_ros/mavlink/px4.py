@@ -107,6 +107,7 @@ class Px4Bridge:
             return True  # PX4 takes no message of time 0
         if now_us != self._sent_us:
             if self._server.stuck:  # it has not read for seconds: it is halted
+                self._server.send()
                 self._receive(_SLICE)
                 return False
             self._send(simulation, now_us)

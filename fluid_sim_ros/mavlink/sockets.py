@@ -75,7 +75,7 @@ class TcpServer:
 
     @property
     def stuck(self) -> bool:
-        """Whether the client has left so much unread that nothing more is sent."""
+        """Whether the client has left so much unread that nothing more is to be sent."""
         return len(self._backlog) > _LARGEST_BACKLOG
 
     def accept(self, timeout: float) -> bool:
@@ -87,14 +87,16 @@ class TcpServer:
                 return False
             client.setblocking(False)
             client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            # beyond this a peer does not read: that shall show
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _LARGEST_BACKLOG)
             self._client, self._backlog = client, b''
             self.peer = f'{peer[0]}:{peer[1]}'
             self._readable.register(client, select.POLLIN)
         return self._client is not None
 
-    def send(self, data: bytes) -> None:
+    def send(self, data: bytes = b'') -> None:
         """Send bytes; what the client does not take yet is kept and sent first next time."""
-        if self._client is None or self.stuck:
+        if self._client is None:
             return
         if self._backlog:
             data = self._backlog + data

@@ -32,9 +32,16 @@ def waited(condition, seconds=3.0):
 class Flight:
     """A simulation with a bridge, run in a thread of its own; ``reports`` are (key, line)."""
 
-    def __init__(self, scene: str, protocol: str, clock: Pacing | None = None, **options) -> None:
+    def __init__(
+        self,
+        scene: str,
+        protocol: str,
+        clock: Pacing | None = None,
+        timestep: float | None = None,
+        **options,
+    ) -> None:
         self.reports: list[tuple[str, str]] = []
-        self.simulation = Simulation(scene)
+        self.simulation = Simulation(scene, timestep=timestep)
         surroundings = Surroundings(
             report=lambda key, line: self.reports.append((key, line)), reset=self._reset
         )

@@ -69,6 +69,7 @@ def test_no_frame_is_lost_or_simulated_twice(flight):
 
 
 @pytest.mark.full
+@pytest.mark.timeout(1800)
 def test_no_frame_of_100000_is_lost_or_simulated_twice(flight):
     lockstep(flight, 100_000)
 
@@ -222,6 +223,7 @@ def test_random_bytes_do_no_harm(flight, link):
 
 
 @pytest.mark.full
+@pytest.mark.timeout(1800)
 def test_a_million_random_packets_do_no_harm(flight, link):
     fuzz(flight, link, 1_000_000)
 
