@@ -18,6 +18,7 @@ from fluid_sim_ros.weather_schema import (
     PowerLaw,
     Ramp,
     Series,
+    Sheared,
     Sine,
     Steady,
     Stratified,
@@ -108,6 +109,8 @@ def _keys(stream: str, models: Sequence[Any], where: str) -> dict[str, str]:
             keys |= _turbulence(model)
         else:
             signals += _signals(model)
+        if isinstance(model, Sheared) and model.rotational:
+            keys['rotational_gust'] = 'curl'
     if signals:
         keys[f'{stream}_signal'] = ' '.join(signals)
     return keys

@@ -30,7 +30,17 @@ class Steady(Strict):
     velocity: Vector
 
 
-class PowerLaw(Strict):
+class Sheared(Strict):
+    """
+    A flow that changes over the height.
+
+    With ``rotational`` drag and damping see the air turn with half the curl, for large bodies.
+    """
+
+    rotational: bool = False
+
+
+class PowerLaw(Sheared):
     """``velocity`` [m/s] at ``reference_height`` [m] over ``ground``, times (z/z_ref)^exponent."""
 
     model: Literal['power_law']
@@ -40,7 +50,7 @@ class PowerLaw(Strict):
     ground: Number = 0.0
 
 
-class Logarithmic(Strict):
+class Logarithmic(Sheared):
     """``velocity`` [m/s] at ``reference_height`` [m] of the law of the wall, ``roughness`` [m]."""
 
     model: Literal['logarithmic']
@@ -56,7 +66,7 @@ class Logarithmic(Strict):
         return self
 
 
-class Stratified(Strict):
+class Stratified(Sheared):
     """``velocity`` [m/s] times ``factors`` at ``depths`` [m] below the surface (else z = 0)."""
 
     model: Literal['stratified']
@@ -169,7 +179,7 @@ class Series(Strict):
         return self
 
 
-class GridFile(Strict):
+class GridFile(Sheared):
     """
     A flow u(t, x, y, z) on a rectilinear grid: an NPZ or NetCDF ``file`` (grid_files.py).
 

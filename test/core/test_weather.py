@@ -77,6 +77,14 @@ def test_profiles_count_from_the_ground(scene):
     np.testing.assert_allclose(felt(Simulation(log)), [6 * factor, 0, 0], rtol=1e-14)
 
 
+def test_a_shear_can_turn_bodies(scene):
+    law = 'wind: {model: power_law, velocity: [6, 0, 0], rotational: true}'
+    simulation, still = Simulation(scene(law)), Simulation(scene(law.replace('true', 'false')))
+    torque = [run.wrench('kite')['drag'][1] for run in (simulation, still)]
+    assert torque[0][1] > 0
+    assert not torque[1].any()
+
+
 def test_models_add_up_and_the_topic_replaces_the_mean_only(scene):
     weather = (
         'wind:\n- {model: steady, velocity: [4, 0, 0]}\n'

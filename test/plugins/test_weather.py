@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
+from mujoco import rollout
 from plugin_common import body_plugin, ellipsoid, explicit_force, free_body, load, refusal, world
 from scipy.interpolate import CubicHermiteSpline
 
@@ -204,6 +205,32 @@ def test_half_the_curl_of_a_shear_turns_a_body():
     np.testing.assert_allclose(explicit_force(model, data), 0, atol=1e-14)
 
 
+@pytest.mark.parametrize('shape', ['', 'fluidshape="ellipsoid" fluidcoef=".5 .3 1.2 0 0"'])
+def test_stock_drag_sees_the_air_turn(shape):
+    """At rest in turning air as turning the other way in air that does not."""
+    body = free_body(f'<geom type="ellipsoid" size=".3 .2 .1" density="500" {shape}/>')
+    option = 'density="1.2" viscosity="1.8e-5"'
+    shear = {'wind': [10, 0, 0], 'wind_profile': 'table 0 0 10 1', 'rotational_gust': 'curl'}
+    model, data = load(world(body, option=option, medium=shear))
+    plain, turning = load(world(body, option=option + ' wind="5 0 0"'))
+    for copy in (data, turning):
+        copy.qpos[:] = [1, 2, 5, 0.8, 0, 0, 0.6]
+    turning.qvel[3:] = [-0.5 * 0.96, -0.5 * 0.28, 0]  # (0, -1/2, 0) in the body's axes
+    mujoco.mj_forward(model, data)
+    mujoco.mj_forward(plain, turning)
+    torque = turning.qfrc_fluid[3:].copy()
+    if shape:  # less the convection of its added mass, which the turning air does not cause
+        terms = np.zeros(plain.nv)
+        turning.qvel[3:] *= -1
+        mujoco.mj_forward(plain, turning)
+        terms[3:] = (torque + turning.qfrc_fluid[3:]) / 2  # even in the rotation
+        turning.qvel[3:] = 0
+        mujoco.mj_forward(plain, turning)
+        torque += turning.qfrc_fluid[3:] - terms[3:]
+    np.testing.assert_allclose(data.qfrc_fluid[3:], torque, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(explicit_force(model, data), data.qfrc_fluid, rtol=1e-10)
+
+
 # ---- state --------------------------------------------------------------------------------------
 
 
@@ -224,6 +251,19 @@ def test_copies_saved_states_and_restarts_agree_to_the_bit(integrator):
     np.testing.assert_array_equal(data.plugin_state, start)
     mujoco.mj_step(model, data, 200)
     np.testing.assert_array_equal(data.qpos, end)
+
+
+def test_a_rollout_is_the_same_flight():
+    model, data = weather(DRYDEN, integrator='implicitfast', timestep=0.004)
+    spec = mujoco.mjtState.mjSTATE_FULLPHYSICS
+    start = np.empty(mujoco.mj_stateSize(model, spec))
+    mujoco.mj_getState(model, data, start, spec)
+    states, _ = rollout.rollout(model, data, start, nstep=150)
+    mujoco.mj_resetData(model, data)
+    mujoco.mj_step(model, data, 150)
+    end = np.empty_like(start)
+    mujoco.mj_getState(model, data, end, spec)
+    np.testing.assert_array_equal(states[0, -1], end)
 
 
 def test_time_set_back_gives_the_same_gusts_again():

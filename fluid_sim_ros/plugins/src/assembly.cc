@@ -17,6 +17,7 @@ namespace fluid_sim {
 namespace {
 
 const Medium kNoMedium{};
+constexpr mjtNum kNoSpin[3] = {0, 0, 0};
 
 bool IsNamed(const mjModel* m, int instance, const char* name) {
   return std::strcmp(PluginName(m, instance), name) == 0;
@@ -89,8 +90,8 @@ void CorrectStockForces(const mjModel* m, mjData* d, const Medium& medium) {
     Flow flow[2];
     FlowsAt(medium, m, d, body, center, 1, flow);
     Wrench local[kTermCount], stock[kTermCount], change;
-    AddStockTerms(m, d, body, flow[0].velocity, center, local);
-    AddStockTerms(m, d, body, m->opt.wind, center, stock);
+    AddStockTerms(m, d, body, {flow[0].velocity, flow[0].spin}, center, local);
+    AddStockTerms(m, d, body, {m->opt.wind, kNoSpin}, center, stock);
     for (int i = 0; i < kTermCount; ++i) {
       AddDifference3(change.force, local[i].force, stock[i].force);
       AddDifference3(change.torque, local[i].torque, stock[i].torque);
@@ -258,7 +259,7 @@ void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum po
 void AddLocalStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                         Wrench terms[kTermCount]) {
   const Flow flow = FluidAround(m, d, body, d->xipos + 3 * body);
-  AddStockTerms(m, d, body, flow.velocity, point_w, terms);
+  AddStockTerms(m, d, body, {flow.velocity, flow.spin}, point_w, terms);
 }
 
 Flow FluidAround(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3]) {

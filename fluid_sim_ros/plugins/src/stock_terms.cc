@@ -4,29 +4,30 @@ namespace fluid_sim {
 namespace {
 
 // Velocity of an object relative to the wind, in its own frame: angular w, linear v.
-void RelativeVelocity(const mjModel* m, const mjData* d, int type, int id, const mjtNum wind_w[3],
+void RelativeVelocity(const mjModel* m, const mjData* d, int type, int id, const StockWind& wind,
                       const mjtNum* rotation, mjtNum w[3], mjtNum v[3]) {
-  mjtNum spatial[6], wind_local[3];
+  mjtNum spatial[6], wind_local[3], spin_local[3];
   mj_objectVelocity(m, d, type, id, spatial, 1);
-  mju_mulMatTVec3(wind_local, rotation, wind_w);
-  mju_copy3(w, spatial);
+  mju_mulMatTVec3(wind_local, rotation, wind.velocity);
+  mju_mulMatTVec3(spin_local, rotation, wind.spin);
+  mju_sub3(w, spatial, spin_local);
   mju_sub3(v, spatial + 3, wind_local);
 }
 
-void AddInertiaBox(const mjModel* m, const mjData* d, int body, const mjtNum wind_w[3],
+void AddInertiaBox(const mjModel* m, const mjData* d, int body, const StockWind& wind,
                    const mjtNum point_w[3], Wrench terms[kTermCount]) {
   const mjtNum* rotation = d->ximat + 9 * body;
   const mjtNum* origin = d->xipos + 3 * body;
   const MediumConstants medium{m->opt.density, m->opt.viscosity};
   mjtNum edges[3], w[3], v[3];
   EquivalentInertiaBox(m, body, edges);
-  RelativeVelocity(m, d, mjOBJ_BODY, body, wind_w, rotation, w, v);
+  RelativeVelocity(m, d, mjOBJ_BODY, body, wind, rotation, w, v);
   AddLocalWrench(InertiaBoxDrag(edges, medium, w, v), rotation, origin, point_w, 1, terms + kDrag);
   AddLocalWrench(InertiaBoxViscous(edges, medium, w, v), rotation, origin, point_w, 1,
                  terms + kViscous);
 }
 
-void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const mjtNum wind_w[3],
+void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const StockWind& wind,
                   const mjtNum point_w[3], Wrench terms[kTermCount]) {
   // geom_fluid: interaction scale, blunt, slender, angular, kutta, magnus, virtual mass, inertia
   const mjtNum* fluid = m->geom_fluid + mjNFLUID * geom;
@@ -36,14 +37,18 @@ void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const mjtNum wind
   const MediumConstants medium{m->opt.density, m->opt.viscosity};
   const mjtNum* rotation = d->geom_xmat + 9 * geom;
   const mjtNum* origin = d->geom_xpos + 3 * geom;
-  mjtNum r[3], w[3], v[3], mass[3], inertia[3];
+  mjtNum r[3], w[3], v[3], turning[3], mass[3], inertia[3];
   GeomSemiaxes(m, geom, r);
-  RelativeVelocity(m, d, mjOBJ_GEOM, geom, wind_w, rotation, w, v);
+  RelativeVelocity(m, d, mjOBJ_GEOM, geom, wind, rotation, w, v);
+  mju_mulMatTVec3(turning, rotation, wind.spin);
+  mju_addTo3(turning, w);  // the added mass is that of a flow that does not turn
   mju_scl3(mass, fluid + 6, medium.density);
   mju_scl3(inertia, fluid + 9, medium.density);
   const Wrench parts[] = {
-      EllipsoidDrag(r, c, medium, w, v),        EllipsoidViscous(r, medium, w, v),
-      AddedMassConvective(mass, inertia, w, v), EllipsoidMagnus(r, c.magnus, medium, w, v),
+      EllipsoidDrag(r, c, medium, w, v),
+      EllipsoidViscous(r, medium, w, v),
+      AddedMassConvective(mass, inertia, turning, v),
+      EllipsoidMagnus(r, c.magnus, medium, w, v),
       EllipsoidKutta(r, c.kutta, medium, v),
   };
   const Term order[] = {kDrag, kViscous, kAddedMass, kMagnus, kKutta};
@@ -73,17 +78,17 @@ void AddLocalWrench(const Wrench& local, const mjtNum* rotation, const mjtNum or
   mju_addToScl3(target_w->torque, torque, scale);
 }
 
-void AddStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum wind_w[3],
+void AddStockTerms(const mjModel* m, const mjData* d, int body, const StockWind& wind,
                    const mjtNum point_w[3], Wrench terms[kTermCount]) {
   if (m->opt.density <= 0 && m->opt.viscosity <= 0) return;
   if (m->body_mass[body] < mjMINVAL) return;
   if ((m->opt.disableflags & mjDSBL_SPRING) && (m->opt.disableflags & mjDSBL_DAMPER)) return;
   if (!HasEllipsoidGeom(m, body)) {
-    AddInertiaBox(m, d, body, wind_w, point_w, terms);
+    AddInertiaBox(m, d, body, wind, point_w, terms);
     return;
   }
   for (int i = 0; i < m->body_geomnum[body]; ++i) {
-    AddEllipsoid(m, d, m->body_geomadr[body] + i, wind_w, point_w, terms);
+    AddEllipsoid(m, d, m->body_geomadr[body] + i, wind, point_w, terms);
   }
 }
 

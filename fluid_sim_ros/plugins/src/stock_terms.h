@@ -9,9 +9,16 @@
 
 namespace fluid_sim {
 
+// What stock forces are relative to: a velocity, and a rotation of the air that drag, viscosity and
+// Magnus force see (MuJoCo itself knows none), world axes [m/s], [rad/s].
+struct StockWind {
+  const mjtNum* velocity;
+  const mjtNum* spin;
+};
+
 // Add the terms of `body` in a wind to terms[kTermCount], in world axes, torques about `point_w`.
 // `d` must hold the positions and velocities of the state in question (mj_forward or the like).
-void AddStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum wind_w[3],
+void AddStockTerms(const mjModel* m, const mjData* d, int body, const StockWind& wind,
                    const mjtNum point_w[3], Wrench terms[kTermCount]);
 
 // Add a wrench given at `origin_w` in the frame `rotation` (row major, local to world).
