@@ -20,7 +20,7 @@ from fluid_sim_ros.mavlink.json_packets import (
     write_state,
 )
 from fluid_sim_ros.mavlink.mapping import ActuatorMap
-from fluid_sim_ros.mavlink.sockets import UdpPort
+from fluid_sim_ros.mavlink.sockets import Datagram, UdpPort
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
 from fluid_sim_ros.sensor_schema import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
@@ -87,6 +87,7 @@ class ArduPilotBridge:
         self._steps = 0  # of a frame
         self._frame_end = 0  # step at which the present frame ends
         self._owed = False  # the autopilot waits for the state at the frame's end
+        self._later: Datagram | None = None  # came while the repeated ones were looked through
         self._waiting: ServoPacket | None = None  # first packet of a process that has restarted
         self._reply = b''
         self._sent_ns = 0
@@ -168,6 +169,7 @@ class ArduPilotBridge:
         self._reply = write_state(self.state(self._sent_ns))
         self._owed = False
         self.counters.sent += 1
+        self._drop_repeated()
         self._port.send(self._reply, self._peer)
 
     def _start_frame(self, simulation: Simulation, packet: ServoPacket) -> None:
@@ -195,7 +197,9 @@ class ArduPilotBridge:
 
     def _next_packet(self, simulation: Simulation) -> ServoPacket | None:
         """Return the packet that begins the next frame, or None when it is not there yet."""
-        got = self._port.receive(_SLICE)
+        got, self._later = self._later, None
+        if got is None:
+            got = self._port.receive(_SLICE)
         now = time.monotonic()
         if got is None:
             self._note_silence(now)
@@ -223,6 +227,20 @@ class ArduPilotBridge:
         if self._count >= 0:
             self.counters.missed += packet.count - self._count - 1
         return packet
+
+    def _drop_repeated(self) -> None:
+        """
+        Drop the questions that were repeated meanwhile, as after a pause: one answer serves all.
+
+        ArduPilot would take each further answer for that of a later frame.
+        """
+        while self._later is None and (got := self._port.receive(0.0)) is not None:
+            packet = read_servo_packet(got[0])
+            same = isinstance(packet, ServoPacket) and packet.count == self._count
+            if same and got[1] == self._peer:
+                self.counters.repeated += 1
+            else:
+                self._later = got
 
     def _adopt(self, sender: Any, now: float) -> bool:
         """Take a new sender as the autopilot, unless the present one is still there."""

@@ -23,6 +23,7 @@ _GRACE = 3.0
 _SPEEDUP = 100
 _HEADING_EAST = 90  # [deg]: the identity attitude
 _PR_SET_PDEATHSIG = 1  # prctl(2)
+_LIBC = ctypes.CDLL(None)  # found before the fork: between fork and exec only calls are safe
 
 
 class Program:
@@ -125,4 +126,4 @@ def command_line(
 
 def _die_with_parent() -> None:
     """Ask the kernel to end this process when the one that started it ends."""
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)

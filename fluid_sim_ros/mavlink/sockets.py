@@ -16,6 +16,9 @@ _PORTION = 65536
 #: What a peer that does not read may leave unsent on our side before it counts as stuck [bytes].
 _LARGEST_BACKLOG = 65536
 
+#: Bytes and their sender.
+Datagram = tuple[bytes, Any]
+
 
 def _listen(kind: Any, address: str, port: int, what: str) -> socket.socket:
     family = socket.AF_INET6 if ':' in address else socket.AF_INET
@@ -156,7 +159,7 @@ class UdpPort:
         self._readable = select.poll()
         self._readable.register(self._socket, select.POLLIN)
 
-    def receive(self, timeout: float) -> tuple[bytes, Any] | None:
+    def receive(self, timeout: float) -> Datagram | None:
         """Return a datagram and its sender, or None when none came within ``timeout`` [s]."""
         if not self._readable.poll(max(0.0, timeout) * 1000.0):
             return None

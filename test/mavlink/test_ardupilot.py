@@ -89,6 +89,21 @@ def test_a_packet_asked_for_again_gets_the_same_answer_without_a_step(flight, li
     assert flight.simulation.step_count == 4
 
 
+def test_questions_repeated_in_a_pause_get_one_answer(flight, link):
+    link.exchange(IDLE)
+    flight.runner.paused = True
+    time.sleep(0.06)  # the loop looks at the port no longer
+    for _ in range(4):
+        link.socket.send(link.packet(IDLE))
+    flight.runner.paused = False
+    link.reader.read(link.socket.recv(4096))
+    link.count += 1
+    assert flight.bridge.counters.repeated == 3
+    for _ in range(3):  # an answer too many would be taken for that of the next frame
+        assert link.exchange(IDLE)['timestamp'][0] == pytest.approx(link.count / 400)
+    assert flight.simulation.step_count == 10
+
+
 def test_a_restarted_autopilot_finds_its_vehicle_at_the_start(flight, link):
     for _ in range(50):
         link.exchange(padded([1900] * 4))
