@@ -49,7 +49,6 @@ format: setup-dev
 
 docs: setup-demo
 	@$(BIN)/python .ci/doc_tables.py
-	@$(BIN)/python .ci/bench_page.py
 	@$(BIN)/python .ci/check_docs.py
 
 clean:

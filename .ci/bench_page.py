@@ -42,6 +42,8 @@ class Shown:
         values = list(leaves(result, entry['at']))
         if not values:
             raise ValueError(f'{entry["what"]}: nothing at {entry["at"]}')
+        if entry.get('count'):
+            values = [sum(map(bool, values))]
         if 'over' in entry:
             under = leaves(result, entry['over'])
             values = [a / b for a, b in zip(values, under, strict=True)]
@@ -127,11 +129,14 @@ def section(name: str, result: dict[str, Any], entries: dict[str, Any], folder: 
             for row in numbers
         ]
         parts.append('\n'.join(['| What | Value | Target | Met |', '|---|---|---|---|', *rows]))
-    if 'table' in entry and (folder / entry['table']).exists():
-        parts.append((folder / entry['table']).read_text(encoding='utf-8').strip())
-    for picture in (folder / f'{name}.png', *(ROOT / path for path in entry.get('pictures', []))):
-        if picture.exists():
-            parts.append(f'![{name}]({os.path.relpath(picture, here)})')
+    table = folder / entry.get('table', f'{name}_table.md')
+    if table.exists():
+        parts.append(table.read_text(encoding='utf-8').strip())
+    pictures = [folder / f'{name}.png', *sorted(folder.glob(f'{name}_*.png'))]
+    pictures += [ROOT / path for path in entry.get('pictures', [])]
+    parts += [
+        f'![{path.stem}]({os.path.relpath(path, here)})' for path in pictures if path.exists()
+    ]
     source = os.path.relpath(ROOT / 'benchmarks' / f'{name}.py', here)
     data = os.path.relpath(folder / f'{name}.json', here)
     load = f', load average {result["load_average"]:.1f}' if 'load_average' in result else ''
@@ -200,13 +205,13 @@ def page(folder: Path = RESULTS) -> str:
     return '\n\n'.join(parts) + '\n'
 
 
-def main() -> None:
-    """Write the page."""
-    folder = Path(sys.argv[1]).resolve() if sys.argv[1:] else RESULTS
-    target = page_of(folder)
-    target.write_text(page(folder), encoding='utf-8')
-    print(f'wrote {os.path.relpath(target)}')
+def main(folder: Path = RESULTS) -> None:
+    """Write the page of a folder of results where it is not up to date."""
+    target, new = page_of(folder), page(folder)
+    if not target.exists() or target.read_text(encoding='utf-8') != new:
+        target.write_text(new, encoding='utf-8')
+        print(f'docs: wrote {os.path.relpath(target)}')
 
 
 if __name__ == '__main__':
-    main()
+    main(*(Path(path).resolve() for path in sys.argv[1:]))

@@ -1,5 +1,5 @@
 """
-Write the tables of the documentation that are made from the project itself.
+Write the tables of the documentation that are made from the project itself, and BENCHMARKS.md.
 
 A table stands between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``. Run by ``make docs``; a
 test fails when a table in the documentation is not what would be written.
@@ -69,6 +69,9 @@ def main() -> int:
         if new != old:
             path.write_text(new, encoding='utf-8')
             print(f'docs: wrote the table {name} of {page}')
+    import bench_page  # here: a script beside this one, in no package
+
+    bench_page.main()
     return 0
 
 

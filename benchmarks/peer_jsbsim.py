@@ -13,8 +13,18 @@ from tempfile import TemporaryDirectory
 
 import jsbsim
 import numpy as np
-from peer_mujoco import milliseconds
-from peer_tasks import MASS, SAMPLE, TIMES, AirTask, Array, G, Run, air_rates, air_start
+from peer_tasks import (
+    MASS,
+    SAMPLE,
+    TIMES,
+    AirTask,
+    Array,
+    G,
+    Run,
+    air_rates,
+    air_start,
+    milliseconds,
+)
 from scipy.integrate import solve_ivp
 
 _FOOT = 0.3048  # [m]

@@ -4,7 +4,18 @@ from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
-from peer_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, G, Run, air_start
+from peer_tasks import (
+    INERTIA,
+    MASS,
+    SAMPLE,
+    TIMES,
+    AirTask,
+    Array,
+    G,
+    Run,
+    air_start,
+    milliseconds,
+)
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.lab.closed_forms import keyframe, scene_of
@@ -52,11 +63,13 @@ def stock_model(task: AirTask, integrator: str, timestep: float) -> str:
     inertia = INERTIA[0]
     density = MASS * task.drag / (3 * inertia / MASS)
     motor = '<actuator><motor site="base" gear="0 0 1 0 0 0"/></actuator>' if task.thrust else ''
-    return world(
-        free_body(_inertial([inertia] * 3) + '<site name="base"/>'), gravity=(0, 0, -G),
-        integrator=integrator, timestep=timestep, option=f'density="{density:.17g}"',
-        extra=_start(task, [MASS * task.thrust] if task.thrust else ()) + motor,
-    )  # fmt: skip
+    start = _start(task, [MASS * task.thrust] if task.thrust else ())
+    return f"""<mujoco>
+    <option timestep="{timestep:.17g}" integrator="{integrator}" gravity="0 0 {-G}"
+     density="{density:.17g}"><flag contact="disable"/></option>
+    <worldbody>
+      <body><freejoint/>{_inertial([inertia] * 3)}<site name="base"/></body>
+    </worldbody>{motor}{start}</mujoco>"""
 
 
 def _inertial(inertia: Iterable[float]) -> str:
@@ -109,7 +122,7 @@ def stock_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
     reference = task.reference(TIMES)
 
     def prepare(integrator: str, timestep: float) -> Callable[[], Callable[[], Array]]:
-        model = mujoco.MjModel.from_xml_string(_without_plugins(task, integrator, timestep))
+        model = mujoco.MjModel.from_xml_string(stock_model(task, integrator, timestep))
         data, steps = mujoco.MjData(model), round(SAMPLE / timestep)
 
         def fly() -> Array:
@@ -130,14 +143,3 @@ def stock_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
         for name in INTEGRATORS
         for h in timesteps
     ]
-
-
-def _without_plugins(task: AirTask, integrator: str, timestep: float) -> str:
-    mjcf = stock_model(task, integrator, timestep).replace(' simple="false"', '')
-    head, rest = mjcf.split('<extension>')
-    return head + rest.split('</extension>')[1]
-
-
-def milliseconds(timestep: float) -> str:
-    """Return a timestep [s] as text."""
-    return f'{1e3 * timestep:g} ms'

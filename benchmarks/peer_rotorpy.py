@@ -10,8 +10,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
-from peer_mujoco import milliseconds
-from peer_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, Run
+from peer_tasks import INERTIA, MASS, SAMPLE, TIMES, AirTask, Array, Run, milliseconds
 from rotorpy.vehicles.hummingbird_params import quad_params
 from rotorpy.vehicles.multirotor import Multirotor
 

@@ -29,13 +29,14 @@ from peer_tasks import (
     TASKS,
     TIMES,
     AirTask,
-    Diverged,
     Run,
     air_rates,
     air_start,
     scipy_runs,
 )
 from peer_underwater import underwater_runs
+
+from fluid_sim_ros.errors import DivergedError
 
 PEERS = ('jsbsim', 'rotorpy')
 TARGETS = (1e-3, 1e-6)  # errors at which times are compared [m]
@@ -82,8 +83,8 @@ def point(run: Run) -> dict[str, Any]:
     found: dict[str, Any] = {'peer': run.peer, 'setting': run.setting}
     try:
         apart = np.linalg.norm(run.prepare()() - run.reference, axis=1)
-    except Diverged as end:
-        return found | {'error_m': None, 'diverged_at_s': end.args[0]}
+    except DivergedError as end:
+        return found | {'error_m': None, 'diverged_at_s': end.time}
     return found | {'error_m': float(apart.max()), 'diverged_at_s': None}
 
 
@@ -154,18 +155,18 @@ def _crossing(curve: Sequence[tuple[float, float]], target: float) -> dict[str, 
 def table(tasks: dict[str, Any]) -> str:
     """Return the times at equal error as a table in Markdown, the fastest of a column bold."""
     columns = [
-        (f'{task["title"]}, {target} m', row)
+        (f'{task["title"]}, {target} m', row, lost(task))
         for task in tasks.values()
         for target, row in task['time_at'].items()
     ]
     peers = dict.fromkeys(peer for task in tasks.values() for peer in sorted(peers_of(task)))
     lines = [
         'Processor time per simulated second [us] at an error; "<": the coarsest run is better.\n',
-        '| | ' + ' | '.join(title for title, _ in columns) + ' |',
+        '| | ' + ' | '.join(title for title, _, _ in columns) + ' |',
         '|---' * (len(columns) + 1) + '|',
     ]
     for peer in peers:
-        cells = [_cell(peer, row) for _, row in columns]
+        cells = ['diverges' if peer in off else _cell(peer, row) for _, row, off in columns]
         lines.append(f'| {peer} | ' + ' | '.join(cells) + ' |')
     return '\n'.join(lines) + '\n'
 
@@ -173,6 +174,11 @@ def table(tasks: dict[str, Any]) -> str:
 def peers_of(task: dict[str, Any]) -> set[str]:
     """Return who takes part in a task."""
     return {found['peer'] for found in task['points']}
+
+
+def lost(task: dict[str, Any]) -> set[str]:
+    """Return who diverges at every setting."""
+    return peers_of(task) - {p['peer'] for p in task['points'] if p['error_m'] is not None}
 
 
 def _cell(peer: str, row: dict[str, Any]) -> str:

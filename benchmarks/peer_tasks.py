@@ -25,16 +25,12 @@ DURATION, SAMPLE = 5.0, 0.1  # of a run; between two positions that are asked fo
 TIMES = SAMPLE * np.arange(1, round(DURATION / SAMPLE) + 1)
 
 
-class Diverged(Exception):  # noqa: N818  (an end of a run, not a fault)
-    """A run ended early: the simulated time [s]."""
-
-
 class Run(NamedTuple):
     """
     One way to do a task.
 
     ``prepare`` returns what is timed; that returns the positions at ``TIMES`` [m], shape (n, 3),
-    or raises `Diverged`.
+    or raises `DivergedError`.
     """
 
     peer: str
@@ -55,6 +51,11 @@ class AirTask:
     thrust: float = 0.0  # T [m/s^2]
     drag: float = 0.0  # k [1/m]
     rotor_drag: float = 0.0  # c [1/s]
+
+
+def milliseconds(timestep: float) -> str:
+    """Return a timestep [s] as the name of a setting."""
+    return f'{1e3 * timestep:g} ms'
 
 
 def fall() -> AirTask:
@@ -168,8 +169,7 @@ def scipy_runs(
         options: dict[str, Any] = {'method': method, 'rtol': tolerance, 'atol': 1e-3 * tolerance}
 
         def fly() -> Array:
-            times = np.minimum(TIMES, DURATION)
-            solved = solve_ivp(rates, (0, DURATION), start, t_eval=times, **options)
+            solved = solve_ivp(rates, (0, TIMES[-1]), start, t_eval=TIMES, **options)
             positions: Array = solved.y[:3].T
             return positions
 

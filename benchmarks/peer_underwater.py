@@ -15,21 +15,22 @@ from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
-from peer_mujoco import milliseconds, simulation_runs
+from peer_mujoco import simulation_runs
 from peer_tasks import (
     SAMPLE,
     TIMES,
     Array,
-    Diverged,
     G,
     Run,
     matrix,
+    milliseconds,
     quaternion_rate,
     scipy_runs,
 )
 from scipy.integrate import odeint
 from vehicle_equations import HEAVY
 
+from fluid_sim_ros.errors import DivergedError
 from fluid_sim_ros.lab.closed_forms import keyframe, scene_of
 from fluid_sim_ros.lab.mjcf import body_plugin, free_body, text, world
 from fluid_sim_ros.physics.fossen import damping_wrench
@@ -198,7 +199,7 @@ def _lagged(model: mujoco.MjModel, data: mujoco.MjData, added: Array, steps: int
             force[:3], force[3:] = rotation @ load[:3], load[3:]
             mujoco.mj_step(model, data)
             if not np.abs(qvel).max() < _FASTEST:
-                raise Diverged(data.time)
+                raise DivergedError('faster than any', time=data.time, body='hull')
         row[:] = data.qpos[:3]
     return out
 

@@ -76,3 +76,10 @@ def test_the_worst_of_the_values_is_judged(bench_page, result, entry, value, met
 def test_a_key_number_that_leads_nowhere_is_refused(bench_page):
     with pytest.raises(ValueError, match=r"a ratio: nothing at \['cost', 'b'\]"):
         bench_page.Shown({'cost': {'a': 1}}, {'what': 'a ratio', 'at': ['cost', 'b']})
+
+
+def test_rows_are_counted_that_hold(bench_page):
+    result = {'rows': {'a': {'caught': ['RK4']}, 'b': {'caught': []}, 'c': {'caught': ['Euler']}}}
+    entry = {'what': 'it', 'at': ['rows', '*', 'caught'], 'count': True, 'target': '>= 3'}
+    assert bench_page.Shown(result, entry).value == 2
+    assert bench_page.Shown(result, entry).met is False
