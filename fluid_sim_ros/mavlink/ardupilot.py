@@ -101,8 +101,8 @@ class ArduPilotBridge:
         if now_ns + self._offset_ns < self._sent_ns:
             frame_ns = 1_000_000_000 // self._rate if self._owed else 0
             self._offset_ns = self._sent_ns + frame_ns - now_ns
-            self._frame_end = simulation.step_count
-            self._rate = 0  # the reset took the scene's timestep
+        if simulation.step_count == 0:  # it has the scene's timestep again
+            self._rate = self._frame_end = 0
 
     def steps_left(self, simulation: Simulation) -> int:
         """Return the steps to the end of the frame."""

@@ -30,7 +30,6 @@ _DIAGONAL = (0, 6, 11, 15, 18, 20)
 MAVLINK1 = 0xFE
 #: Message ids.
 _ACTUATORS, _OLD_CONTROLS = 93, 91
-_LONGEST_MESSAGE = 280  # [bytes], with signature
 
 
 @dataclass

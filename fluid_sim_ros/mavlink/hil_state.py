@@ -59,8 +59,6 @@ class HilState:
     """
 
     def __init__(self, simulation: Simulation, vehicle: str, file: AutopilotFile) -> None:
-        self.armed = False
-        self._simulation = simulation
         self._vision, self._rc = file.vision, tuple(file.rc)
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home

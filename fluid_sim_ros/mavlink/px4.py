@@ -81,6 +81,7 @@ class Px4Bridge:
         self._locked = False  # it has answered: wait for it
         self._flown = False  # an autopilot was here before
         self._outputs: Sequence[float] = ()
+        self._armed = False
         self._sent_us = 0
         self._answered_us = 0
         self._asked_at = 0.0
@@ -118,7 +119,7 @@ class Px4Bridge:
         counters, server = self.counters, self._server
         values = {
             'protocol': 'px4', 'port': self.port, 'peer': server.peer,
-            'autopilot_time_s': self._sent_us * 1e-6, 'armed': self._state.armed,
+            'autopilot_time_s': self._sent_us * 1e-6, 'armed': self._armed,
             'last_outputs': [round(value, 3) for value in self._outputs],
             'saturated': self._commands.saturated, **counters.values(),
         }  # fmt: skip
@@ -216,7 +217,7 @@ class Px4Bridge:
             self._locked = True
             if not actuators.lockstep:
                 self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
-        self._state.armed = actuators.armed
+        self._armed = actuators.armed
         self._outputs = actuators.controls
         self._commands.set(*self._actuators.commands(actuators.controls))
         stray = self._actuators.look_for_stray(actuators.controls)
@@ -240,7 +241,7 @@ class Px4Bridge:
     def _lost(self) -> None:
         self.counters.disconnections += 1
         self._commands.set(*self._actuators.rest)
-        self._state.armed = False
+        self._armed = False
         self._surroundings.report(
             'gone', f'PX4 has closed the connection; listening on port {self.port}'
         )

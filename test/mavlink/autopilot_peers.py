@@ -21,7 +21,7 @@ def free_port(protocol: str) -> int:
         return probe.getsockname()[1]
 
 
-def waited(condition, seconds=3.0):
+def waited(condition, seconds=10.0):
     """Poll until a condition holds; return whether it does."""
     deadline = time.monotonic() + seconds
     while not condition() and time.monotonic() < deadline:

@@ -126,6 +126,23 @@ def test_a_reset_by_the_user_sets_the_state_back_and_time_goes_on(flight, link):
     assert state['position'] == pytest.approx([0, 0, -0.13], abs=1e-4)
 
 
+def test_a_reset_within_the_first_frame_keeps_the_frames_length():
+    flight = Flight('x500_ground', 'ardupilot')
+    simulation, bridge, link = flight.simulation, flight.bridge, Link(flight.port, rate=400)
+    link.socket.send(link.packet(IDLE))
+    assert bridge.meet(simulation)
+    simulation.step()  # one of two
+    flight._reset()
+    assert not bridge.meet(simulation)  # it answers, and waits
+    assert link.reader.read(link.socket.recv(4096))['timestamp'] == [0.0]
+    link.count += 1
+    link.socket.send(link.packet(IDLE))
+    assert bridge.meet(simulation)
+    assert simulation.model.opt.timestep == 1 / 800
+    assert bridge.steps_left(simulation) == 2
+    bridge.close()
+
+
 def test_two_instances_fly_side_by_side():
     flights = [Flight('x500_ground', 'ardupilot') for _ in range(2)]
     with flights[0].running(), flights[1].running():

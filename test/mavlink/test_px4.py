@@ -12,6 +12,8 @@ from px4_stand_in import Px4, Quad, Submarine
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink import px4 as px4_bridge
+from fluid_sim_ros.mavlink.hil_messages import dialect
+from fluid_sim_ros.resources import config_folder
 
 IDLE = [0.0] * 4
 
@@ -63,9 +65,23 @@ def test_groups_come_at_the_rates_that_px4_wants(flight, px4):
     for _ in range(750):
         px4.exchange(IDLE)
     assert px4.rules.counts == {'accel': 750, 'gyro': 750, 'mag': 250, 'baro': 150, 'airspeed': 0}
-    assert px4.counts['HIL_GPS'] == 29  # one is under way: the receiver has a latency
+    assert px4.counts['HIL_GPS'] == 30
     assert px4.counts['HIL_STATE_QUATERNION'] == 30
     assert px4.counts['HEARTBEAT'] == 3
+
+
+def test_sticks_of_a_mapping_are_sent(tmp_path):
+    path = tmp_path / 'px4_x500.yaml'
+    shipped = config_folder() / 'autopilots' / 'px4_x500.yaml'
+    path.write_text(shipped.read_text() + 'rc: [1500, 1500, 1000, 1500, 1900]\n')
+    with Flight('x500_ground', 'px4', mapping=str(path)).running() as flight:
+        px4 = Px4(flight.port, silent=0)
+        for _ in range(50):
+            px4.exchange(IDLE)
+    assert px4.counts['RC_CHANNELS'] == 2
+    sticks = px4.latest['RC_CHANNELS']
+    assert sticks['chancount'] == 5
+    assert [sticks[f'chan{i}_raw'] for i in range(1, 7)] == [1500, 1500, 1000, 1500, 1900, 65535]
 
 
 def test_time_stands_still_until_px4_connects(flight):
@@ -269,7 +285,7 @@ def test_a_peer_of_random_bytes_keeps_little_memory(flight):
         px4.socket.sendall(rng.randbytes(1000))
     parser = flight.bridge._codec._mav
     # with those of the greeting
-    assert waited(lambda: parser.total_bytes_received > 200_000 and len(parser.buf) < 300)
+    assert waited(lambda: parser.total_bytes_received > 200_000 and len(parser.buf) < 300, 20.0)
     assert flight.bridge.counters.malformed > 100
 
 
@@ -295,6 +311,10 @@ def test_an_answer_given_twice_counts_once(flight, px4):
     [
         (bytes([0xFE, 9, 0, 1, 1, 0]) + bytes(11), 'MAVLink 1: this autopilot is too old'),
         (bytes(20), 'are no MAVLink message'),
+        (
+            dialect.MAVLink_hil_controls_message(*[0] * 11).pack(dialect.MAVLink(None)),
+            'HIL_CONTROLS: this PX4 is too old; it needs 1.9 or later',
+        ),
     ],
 )
 def test_an_autopilot_of_another_kind_is_named(flight, px4, data, line):
