@@ -78,6 +78,18 @@ def normal_numbers(seed: int, stream: int, ticks: int, count: int) -> Array:
     return numbers
 
 
+def noise_stream(name: str) -> int:
+    """
+    Return the key of a vehicle's noise: the 64-bit FNV-1a hash of its name.
+
+    So the gusts of one vehicle do not depend on which others there are. Fowler, Noll and Vo.
+    """
+    value = 0xCBF29CE484222325
+    for byte in name.encode():
+        value = (value ^ byte) * 0x100000001B3 % 2**64
+    return value
+
+
 def noise_samples(
     filters: Sequence[NoiseFilter], outputs: int, tick: float, seed: int, stream: int, ticks: int
 ) -> Array:

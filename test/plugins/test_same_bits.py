@@ -12,6 +12,9 @@ from plugin_common import body_plugin, ellipsoid, free_body, load, set_medium, w
 SEA = {
     'density': 1025, 'viscosity': 1e-3, 'density_above': 1.2, 'viscosity_above': 1.8e-5,
     'surface': 0.1, 'current': [0.3, -0.1, 0.0], 'wind': [3, 1, 0],
+    'turbulence': 'von_karman', 'turbulence_wind_6m': [3], 'turbulence_height': [5],
+    'turbulence_airspeed': [3], 'turbulence_span': [0.5], 'turbulence_tick': [0.02],
+    'wind_gauss_markov': [0.1, 0.1, 0, 5], 'current_signal': 'sine 0 .1 0 3 0',
     'waves': 'jonswap .3 3', 'wave_components': 8, 'wave_spreading': 10, 'water_depth': 5,
 }  # fmt: skip
 STEPS = 60

@@ -67,7 +67,7 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
     const int address = medium.origin[body];
     const mjtNum* origin = address >= 0 ? d->qpos + address : d->xpos + 3 * m->body_rootid[body];
     for (int i = 0; i < 3; ++i) arm[i] = point_w[i] - origin[i];
-    AddTurbulence(medium.turbulence, Seed(state), vehicle, d->time, point_w[2], arm,
+    AddTurbulence(medium.turbulence, Seed(state), medium.stream[vehicle], d->time, point_w[2], arm,
                   state + TurbulenceAddress(medium, vehicle), &flow);
   }
   return flow;
@@ -148,7 +148,8 @@ void StartMediumNoise(const Medium& medium, mjtNum* state) {
   if (!medium.turbulence.kind) return;
   const int vehicles = 1 + *std::max_element(medium.vehicle.begin(), medium.vehicle.end());
   for (int i = 0; i < vehicles; ++i) {
-    StartTurbulence(medium.turbulence, Seed(state), i, state + TurbulenceAddress(medium, i));
+    StartTurbulence(medium.turbulence, Seed(state), medium.stream[i],
+                    state + TurbulenceAddress(medium, i));
   }
 }
 
@@ -167,7 +168,7 @@ void AdvanceMedium(const Medium& medium, const mjModel* m, mjData* d) {
     const int vehicle = medium.vehicle[body];
     if (vehicle <= last) continue;
     last = vehicle;
-    AdvanceTurbulence(medium.turbulence, Seed(state), vehicle, d->time,
+    AdvanceTurbulence(medium.turbulence, Seed(state), medium.stream[vehicle], d->time,
                       VehicleAt(medium, m, d, body, state),
                       state + TurbulenceAddress(medium, vehicle));
   }

@@ -8,6 +8,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "flow_sample.h"
@@ -49,11 +50,12 @@ struct Medium {
   mjtNum viscosity[2] = {0, 0};  // below, above [Pa s]
   Stream current, wind;
   Grid current_grid, wind_grid;
-  Turbulence turbulence;     // of the wind
-  bool curl = false;         // rotational gusts are half the curl of current and wind
-  mjtNum seed = 0;           // of all noise
-  std::vector<int> vehicle;  // of each body, or -1 for what stands still
-  std::vector<int> origin;   // of each body's vehicle: address in qpos, or -1 without a free joint
+  Turbulence turbulence;              // of the wind
+  bool curl = false;                  // rotational gusts are half the curl of current and wind
+  mjtNum seed = 0;                    // of all noise
+  std::vector<int> vehicle;           // of each body, or -1 for what stands still
+  std::vector<std::uint64_t> stream;  // key of each vehicle's noise
+  std::vector<int> origin;  // of each body's vehicle: address in qpos, or -1 without a free joint
   // addresses in the state: of the processes, and of the first vehicle's turbulence
   int current_noise = 0, wind_noise = 0, turbulence_state = 0;
   int turbulence_size = 0;  // per vehicle

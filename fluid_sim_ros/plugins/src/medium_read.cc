@@ -66,6 +66,10 @@ bool ReadRandom(const Config& config, const mjModel* m, Medium* medium) {
   Vehicles(m, &medium->vehicle);
   medium->origin.assign(m->nbody, -1);
   for (int body = 1; body < m->nbody; ++body) {
+    if (m->body_rootid[body] == body && medium->vehicle[body] >= 0) {
+      const char* name = mj_id2name(m, mjOBJ_BODY, body);
+      medium->stream.push_back(NoiseStream(name, medium->vehicle[body]));
+    }
     const int joint = m->body_jntadr[m->body_rootid[body]];
     if (joint >= 0 && m->jnt_type[joint] == mjJNT_FREE) {
       medium->origin[body] = m->jnt_qposadr[joint];

@@ -164,8 +164,6 @@ bool ReadAxis(const Config& config, const mjtNum wind[3], Turbulence* t) {
   return true;
 }
 
-std::uint64_t NoiseStream(int vehicle) { return 2 + vehicle; }  // 0, 1: current and wind
-
 }  // namespace
 
 bool ReadTurbulence(const Config& config, const mjtNum wind[3], Turbulence* t) {
@@ -202,26 +200,33 @@ int TurbulenceStateSize(const Config& config) {
   return NoiseStateSize(modes * (rotates ? 7 : 5) + (rotates ? 1 : 0), rotates ? 6 : 3);
 }
 
-void StartTurbulence(const Turbulence& t, std::uint64_t seed, int vehicle, mjtNum* state) {
-  StartNoise(t.noise, seed, NoiseStream(vehicle), state);
+std::uint64_t NoiseStream(const char* name, int vehicle) {
+  if (!name || !name[0]) return 2 + vehicle;  // 0, 1: current and wind
+  std::uint64_t hash = 0xcbf29ce484222325;    // offset and prime of FNV-1a, 64 bits
+  for (; *name; ++name) hash = (hash ^ static_cast<unsigned char>(*name)) * 0x100000001b3;
+  return hash;
 }
 
-void AdvanceTurbulence(const Turbulence& t, std::uint64_t seed, int vehicle, mjtNum time,
+void StartTurbulence(const Turbulence& t, std::uint64_t seed, std::uint64_t stream, mjtNum* state) {
+  StartNoise(t.noise, seed, stream, state);
+}
+
+void AdvanceTurbulence(const Turbulence& t, std::uint64_t seed, std::uint64_t stream, mjtNum time,
                        const Followed& vehicle_at, mjtNum* state) {
   if (!NoiseIsDue(t.noise, time, state)) return;
-  if (!t.follows) return AdvanceNoise(t.noise, seed, NoiseStream(vehicle), time, state);
+  if (!t.follows) return AdvanceNoise(t.noise, seed, stream, time, state);
   mjtNum length[3];
   LengthsAt(vehicle_at.height, HighLength(t), length);
   // below a tenth of the stated airspeed the pattern would stand still
   const mjtNum airspeed = std::max(vehicle_at.airspeed, 0.1 * t.airspeed);
   const ColouredNoise now = UnitProcesses(t, length, airspeed);
-  AdvanceNoise(now, seed, NoiseStream(vehicle), time, state);
+  AdvanceNoise(now, seed, stream, time, state);
 }
 
-void AddTurbulence(const Turbulence& t, std::uint64_t seed, int vehicle, mjtNum time, mjtNum z,
-                   const mjtNum arm_w[3], const mjtNum* state, FlowSample* flow) {
+void AddTurbulence(const Turbulence& t, std::uint64_t seed, std::uint64_t stream, mjtNum time,
+                   mjtNum z, const mjtNum arm_w[3], const mjtNum* state, FlowSample* flow) {
   mjtNum value[kMostOutputs], rate[kMostOutputs];
-  SampleNoise(t.noise, seed, NoiseStream(vehicle), time, state, value, rate);
+  SampleNoise(t.noise, seed, stream, time, state, value, rate);
   Intensity at = {{t.sigma[0], t.sigma[1], t.sigma[2]}, {0, 0, 0}};
   if (t.by_wind) at = IntensityAt(z - t.ground, t.wind_6m, t.exceedance);
   // u along the axis, v to its left, w up

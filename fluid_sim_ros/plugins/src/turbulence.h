@@ -37,8 +37,13 @@ bool ReadTurbulence(const Config& config, const mjtNum wind[3], Turbulence* turb
 // Numbers in plugin_state per vehicle, from the keys alone.
 int TurbulenceStateSize(const Config& config);
 
-// State of one vehicle at time 0.
-void StartTurbulence(const Turbulence& turbulence, std::uint64_t seed, int vehicle, mjtNum* state);
+// Key of a vehicle's noise: the FNV-1a hash of its name, so that the gusts of one do not depend on
+// which others there are; its number where it has none.
+std::uint64_t NoiseStream(const char* name, int vehicle);
+
+// State of one vehicle at time 0; `stream` is the key of its noise.
+void StartTurbulence(const Turbulence& turbulence, std::uint64_t seed, std::uint64_t stream,
+                     mjtNum* state);
 
 // A vehicle that turbulence follows: height above ground [m], airspeed [m/s].
 struct Followed {
@@ -46,12 +51,13 @@ struct Followed {
 };
 
 // Bring it to a time; `vehicle_at` is read where it follows.
-void AdvanceTurbulence(const Turbulence& turbulence, std::uint64_t seed, int vehicle, mjtNum time,
-                       const Followed& vehicle_at, mjtNum* state);
+void AdvanceTurbulence(const Turbulence& turbulence, std::uint64_t seed, std::uint64_t stream,
+                       mjtNum time, const Followed& vehicle_at, mjtNum* state);
 
 // Add what the vehicle meets at a point; `arm_w` leads there from the vehicle's origin.
-void AddTurbulence(const Turbulence& turbulence, std::uint64_t seed, int vehicle, mjtNum time,
-                   mjtNum z, const mjtNum arm_w[3], const mjtNum* state, FlowSample* flow);
+void AddTurbulence(const Turbulence& turbulence, std::uint64_t seed, std::uint64_t stream,
+                   mjtNum time, mjtNum z, const mjtNum arm_w[3], const mjtNum* state,
+                   FlowSample* flow);
 
 }  // namespace fluid_sim
 
