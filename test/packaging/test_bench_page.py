@@ -1,5 +1,6 @@
 import importlib.util
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -29,6 +30,16 @@ def test_the_page_shows_every_result_with_its_commit(bench_page):
     for path in results:
         assert f'\n## {path.stem}\n' in text
         assert f'commit {json.loads(path.read_text())["commit"][:12]}' in text
+
+
+def test_each_benchmark_has_one_entry_of_key_numbers(bench_page):
+    text = bench_page.KEY_NUMBERS.read_text()
+    names = re.findall(r'^(\w+):', text, re.MULTILINE)
+    assert sorted(set(names)) == sorted(names)  # of two, YAML takes the last without a word
+    for name in names:
+        assert (ROOT / 'benchmarks' / f'{name}.py').exists(), name
+    for picture in re.findall(r'doc/img/\w+\.png', text):
+        assert (ROOT / picture).exists(), picture
 
 
 def test_every_picture_and_table_among_the_results_is_shown(bench_page):
