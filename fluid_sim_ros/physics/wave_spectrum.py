@@ -5,7 +5,12 @@ from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array, not_negative, positive
-from fluid_sim_ros.physics.waves import Sea, dispersion_wavenumber, unit_direction
+from fluid_sim_ros.physics.waves import (
+    Sea,
+    checked_height,
+    dispersion_wavenumber,
+    unit_direction,
+)
 
 #: Lowest frequency of a sea over the peak's: below it JONSWAP holds 2e-9 of the energy.
 LOWEST = 0.5
@@ -71,7 +76,7 @@ def jonswap_waves(
     Parameters
     ----------
     significant_height, peak_period
-        H_s = 4 sqrt(m_0) [m], >= 0, and T_p [s], > 0.
+        H_s = 4 sqrt(m_0) [m], 0 up to `breaking_height` at T_p, and T_p [s], > 0.
     gamma
         Peakedness, 1 to 10.
     direction
@@ -102,7 +107,7 @@ def jonswap_waves(
     period = 200.0 * peak_period if repeat is None else float(positive(repeat, 'repeat [s]'))
     step = 2.0 * np.pi / period
     edges = _edges(omega_p / step, components, cutoff)
-    variance = float(not_negative(significant_height, 'significant height [m]')) ** 2 / 16.0
+    variance = checked_height(significant_height, peak_period, depth, gravity) ** 2 / 16.0
     draw = uniforms(seed, 3 * components).reshape(components, 3)
     multiple = edges[:-1] + np.floor(draw[:, 0] * np.diff(edges))
     omega = step * multiple

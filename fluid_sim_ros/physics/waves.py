@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.arrays import Array, column, not_negative, positive, vectors
+from fluid_sim_ros.physics.arrays import Array, column, positive, vectors
 
 #: e^(-2 k h) beyond this k h is below the rounding of 1: the water counts as deep.
 DEEP = 20.0
@@ -86,6 +86,28 @@ def dispersion_wavenumber(omega: ArrayLike, depth: float, gravity: float) -> Arr
     return wavenumber
 
 
+def breaking_height(period: float, depth: float, gravity: float = 9.81) -> float:
+    """
+    Return the height at which waves of a period break [m]: 0.142 L tanh(k h).
+
+    Miche (1944), Annales des Ponts et Chaussees 114. Linear waves describe the flow well up to
+    about a third of it. Period [s], depth [m] and gravity [m/s^2] as in `dispersion_wavenumber`.
+    """
+    omega = 2.0 * np.pi / float(positive(period, 'period [s]'))
+    k = float(dispersion_wavenumber(omega, depth, gravity))
+    return 0.142 * 2.0 * np.pi / k * float(np.tanh(k * depth))
+
+
+def checked_height(height: float, period: float, depth: float, gravity: float) -> float:
+    """Return a wave height [m], or raise a ConfigError where waves so high would break."""
+    limit = breaking_height(period, depth, gravity)
+    if not 0.0 <= height <= limit:
+        raise ConfigError(
+            f'height: {height} m; allowed: 0 to {limit:.6g} m, where waves of {period} s break'
+        )
+    return float(height)
+
+
 def regular_waves(
     height: float,
     period: float,
@@ -99,7 +121,7 @@ def regular_waves(
     Parameters
     ----------
     height, period
-        From trough to crest [m], >= 0; of the wave [s], > 0.
+        From trough to crest [m], 0 up to `breaking_height`; of the wave [s], > 0.
     direction
         Along which the waves travel, world x y, any length but 0, shape (2,).
     depth, gravity
@@ -108,7 +130,7 @@ def regular_waves(
     """
     omega = 2.0 * np.pi / np.atleast_1d(positive(period, 'period [s]'))
     return Sea(
-        amplitude=0.5 * np.atleast_1d(not_negative(height, 'height [m]')),
+        amplitude=np.full(1, 0.5 * checked_height(height, period, depth, gravity)),
         omega=omega,
         wavenumber=dispersion_wavenumber(omega, depth, gravity),
         direction=unit_direction(direction)[np.newaxis],
@@ -162,7 +184,7 @@ def wave_flow(sea: Sea, position: ArrayLike, time: ArrayLike) -> Flow:
     Horizontally a omega C cos(theta) along the direction, vertically a omega S sin(theta), with
     C = cosh k(z + h)/sinh k h and S = sinh k(z + h)/sinh k h (both e^(k z) in deep water). Free of
     divergence and rotation up to the mean level; above it C and S go on along their tangents at
-    z = 0 (linear extrapolation; DNV-RP-C205, 3.3.3; Rodenbusch and Forristall 1986, OTC 5097), so
+    z = 0 (linear extrapolation; Rodenbusch and Forristall 1986, OTC 5097), so
     that the short waves on a crest of the long ones stay bounded. Velocity and Du/Dt are
     continuous there. Below the bed the flow is that at the bed.
 

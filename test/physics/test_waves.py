@@ -9,6 +9,7 @@ from strategies import floats
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.wave_spectrum import jonswap_waves
 from fluid_sim_ros.physics.waves import (
+    breaking_height,
     dispersion_wavenumber,
     regular_waves,
     wave_flow,
@@ -39,6 +40,14 @@ def test_dispersion_in_its_limits():
     )
     # k h = 1 exactly
     assert dispersion_wavenumber(np.sqrt(G * np.tanh(1.0)), 1.0, G) == pytest.approx(1, rel=1e-15)
+
+
+def test_waves_break_at_a_seventh_of_their_length_or_at_a_share_of_the_depth():
+    length = G * 5.0**2 / (2 * np.pi)
+    assert breaking_height(5.0, np.inf, G) == pytest.approx(0.142 * length, rel=1e-12)
+    # long waves: .142 2 pi h = .892 h
+    assert breaking_height(1000.0, 2.0, G) == pytest.approx(0.142 * 2 * np.pi * 2.0, rel=1e-4)
+    assert regular_waves(0.999 * 0.142 * length, 5.0).amplitude.shape == (1,)
 
 
 def test_surface_of_regular_waves():
@@ -169,7 +178,10 @@ def test_the_energy_of_a_wave_travels_with_the_group():
     ('call', 'words'),
     [
         (lambda: regular_waves(1, 0), 'period'),
-        (lambda: regular_waves(-1, 5), 'height'),
+        (lambda: regular_waves(-1, 5), 'height: -1 m; allowed: 0 to 5'),
+        (lambda: regular_waves(1, 2), 'height: 1 m; allowed: 0 to 0.886'),
+        (lambda: regular_waves(np.nan, 5), 'height: nan'),
+        (lambda: jonswap_waves(2.0, 8.0, depth=1.0), 'height: 2.0 m'),
         (lambda: regular_waves(1, 5, [0, 0]), 'direction'),
         (lambda: regular_waves(1, 5, depth=0.0), 'depth'),
         (lambda: dispersion_wavenumber(1.0, 5.0, 0.0), 'gravity'),

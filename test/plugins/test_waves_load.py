@@ -13,6 +13,10 @@ CASES = {
     'a word for a number': (SEA | {'waves': 'regular high 6'}, ['waves', 'high', 'HEIGHT >= 0']),
     'negative height': (SEA | {'waves': 'jonswap -1 6'}, ['waves', '-1 6', 'HEIGHT >= 0']),
     'zero period': (SEA | {'waves': 'regular 1 0'}, ['waves', 'PERIOD > 0']),
+    'breaking': (SEA | {'waves': 'regular 1 2'}, ['waves', 'regular 1 2', 'HEIGHT up to 0.886']),
+    'breaking in shallow water': (
+        SEA | {'waves': 'jonswap 2 8', 'water_depth': 1}, ['HEIGHT up to 0.87', 'break']
+    ),
     'gamma': (SEA | {'waves': 'jonswap 1 6 .5'}, ['waves', 'GAMMA 1 to 10']),
     'infinite': (SEA | {'waves': 'regular inf 6'}, ['waves', 'inf']),
     'no surface': ({'density': 1000, 'waves': 'regular 1 6'}, ['waves', 'give surface']),

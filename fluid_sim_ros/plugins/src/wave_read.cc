@@ -41,6 +41,12 @@ mjtNum Wavenumber(mjtNum omega, mjtNum depth, mjtNum gravity) {
   return x / depth;
 }
 
+// Height at which waves of a period break: Miche (1944), .142 L tanh(k h).
+mjtNum BreakingHeight(mjtNum period, mjtNum depth, mjtNum gravity) {
+  const mjtNum k = Wavenumber(2 * kPi / period, depth, gravity);
+  return 0.142 * 2 * kPi / k * std::tanh(k * depth);
+}
+
 WaveComponent Component(mjtNum amplitude, mjtNum omega, mjtNum phase, mjtNum depth,
                         mjtNum gravity) {
   const mjtNum k = Wavenumber(omega, depth, gravity), floor = std::exp(-2 * k * depth);
@@ -207,6 +213,11 @@ bool ReadWaves(const Config& config, const mjModel* m, bool has_surface, mjtNum 
   if (!config.Number("water_depth", mjMINVAL, kInfinity, "a number > 0 [m]", &waves->depth) ||
       !ReadDirection(config, choice.along)) {
     return false;
+  }
+  const mjtNum highest = BreakingHeight(choice.period, waves->depth, -gravity[2]);
+  if (choice.height > highest) {
+    return config.Refuse("waves", "HEIGHT up to " + std::to_string(highest) +
+                                      " [m]: waves of this period break there");
   }
   if (sea) {
     if (!ReadSea(config, &choice)) return false;

@@ -55,7 +55,7 @@ mjtNum WaveHeight(const Waves& waves, mjtNum time, const mjtNum point_w[3]);
 WaveSurface WaveSurfaceAt(const Waves& waves, mjtNum time, const mjtNum point_w[3]);
 
 // Add the flow under the waves. Above the mean level along the tangents at it (linear
-// extrapolation: DNV-RP-C205, 3.3.3), below the bed as at the bed.
+// extrapolation; Rodenbusch and Forristall 1986), below the bed as at the bed.
 void AddWaves(const Waves& waves, mjtNum time, const mjtNum point_w[3], FlowSample* flow);
 
 }  // namespace fluid_sim
