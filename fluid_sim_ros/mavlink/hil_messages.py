@@ -26,8 +26,10 @@ _GCS, _NOT_AN_AUTOPILOT = 6, 8  # MAV_TYPE_GCS, MAV_AUTOPILOT_INVALID
 _COURSE_UNKNOWN = 65535  # [cdeg]
 #: Upper triangle of a 6x6 covariance: places of its diagonal.
 _DIAGONAL = (0, 6, 11, 15, 18, 20)
-#: First byte of a message of MAVLink 1.
-MAVLINK1 = 0xFE
+#: First byte of a message of MAVLink 1 and 2.
+MAVLINK1, _MAVLINK2 = 0xFE, 0xFD
+#: What a message of MAVLink 2 has around its payload [bytes], unsigned.
+_FRAME = 12
 #: Message ids.
 _ACTUATORS, _OLD_CONTROLS = 93, 91
 
@@ -207,7 +209,7 @@ class HilCodec:
     def receive(self, data: bytes) -> Received:
         """Read a portion of the stream; an unfinished message waits for the next portion."""
         received, mav = Received(), self._mav
-        for message in mav.parse_buffer(data) or ():
+        for message in self._messages(data):
             kind = message.get_msgId()
             if kind == _ACTUATORS:
                 received.messages += 1
@@ -228,6 +230,17 @@ class HilCodec:
             del mav.buf[: mav.buf_index]
             mav.buf_index = 0
         return received
+
+    def _messages(self, data: bytes) -> Sequence[dialect.MAVLink_message]:
+        mav = self._mav
+        # most portions are one whole message, which needs no search for its begin and end
+        unsigned = len(data) >= _FRAME and data[0] == _MAVLINK2 and not data[2]
+        if mav.buf or not unsigned or len(data) != data[1] + _FRAME:
+            return mav.parse_buffer(data) or ()
+        try:
+            return (mav.decode(bytearray(data)),)
+        except dialect.MAVError:
+            return (dialect.MAVLink_bad_data(data, 'a whole message'),)
 
 
 def _fault(message: dialect.MAVLink_message) -> str:

@@ -18,6 +18,8 @@ from fluid_sim_ros.vehicle import Vehicle
 OUTPUTS = {'px4': 16, 'ardupilot': 32}
 #: An output that drives nothing counts as commanded when it has moved by this share of 1.
 _MOVED = 0.05
+#: Every so many answers of the autopilot they are looked through.
+_LOOK = 25
 
 Pulse = Annotated[int, Field(ge=800, le=2200)]
 Curve = Callable[[float], float]
@@ -168,6 +170,7 @@ class ActuatorMap:
         self._span = max(a.input[-1] - a.input[0] for a in file.actuators)
         self._watched = sorted(set(range(1, 33)) - {*outputs, *file.ignored})
         self._seen: Sequence[float] = ()
+        self._looks = -1
         self.stray: list[int] = []
         self.rest = ([0.0] * len(self._thrusters), [0.0] * len(self._joints))
 
@@ -177,7 +180,14 @@ class ActuatorMap:
         return thrusts, [curve(outputs[place]) for place, curve in self._joints]
 
     def look_for_stray(self, outputs: Sequence[float]) -> int | None:
-        """Return an output that has moved since the first look and drives nothing, once each."""
+        """
+        Return an output that has moved since the first look and drives nothing, once each.
+
+        Cheap enough for every answer, because it looks at every 25th only.
+        """
+        self._looks += 1
+        if self._looks % _LOOK:
+            return None
         if len(self._seen) != len(outputs):
             self._seen = outputs
         for number in self._watched:
@@ -218,7 +228,12 @@ def _curve(actuator: ActuatorFile, low: float, high: float) -> Curve:
             max(_interpolate(1500.0 + 400.0 * sign * share(value), pulses, thrusts), low), high
         )
     if actuator.thruster and actuator.curve == 'rotor_speed':
-        return lambda value: _scaled(sign * share(value) * abs(share(value)), low, high)
+
+        def by_speed(value: float) -> float:
+            speed = sign * share(value)
+            return _scaled(speed * abs(speed), low, high)
+
+        return by_speed
     return lambda value: _scaled(sign * share(value), low, high)
 
 

@@ -283,9 +283,12 @@ def test_a_peer_of_random_bytes_keeps_little_memory(flight):
     px4, rng = Px4(flight.port), random.Random(4)
     for _ in range(200):
         px4.socket.sendall(rng.randbytes(1000))
-    parser = flight.bridge._codec._mav
-    # with those of the greeting
-    assert waited(lambda: parser.total_bytes_received > 200_000 and len(parser.buf) < 300, 20.0)
+
+    def all_is_read():
+        parser = flight.bridge._codec._mav  # made anew with the connection
+        return parser.total_bytes_received >= 200_000 and len(parser.buf) < 300
+
+    assert waited(all_is_read)
     assert flight.bridge.counters.malformed > 100
 
 
@@ -332,9 +335,9 @@ def test_a_px4_without_lockstep_is_named(flight, px4):
 
 def test_a_motor_too_many_is_reported_once(flight, px4):
     px4.exchange(IDLE)
-    for _ in range(3):
+    for _ in range(100):
         px4.exchange([0.0, 0.0, 0.0, 0.0, 0.5, 0.5])
-    assert waited(lambda: flight.bridge.counters.answered == 4)
+    assert waited(lambda: flight.bridge.counters.answered == 101)
     lines = [line for key, line in flight.reports if key.startswith('output')]
     assert lines == [f'PX4 moves output {i}, which drives nothing' for i in (5, 6)]
 
