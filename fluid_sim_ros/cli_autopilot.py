@@ -38,7 +38,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def add_doctor_options(parser: argparse.ArgumentParser) -> None:
     """Add what ``look`` reads."""
     add_options(parser)
-    parser.add_argument('--scene', default=_SCENE, help=f'to fly meanwhile (default {_SCENE})')
     parser.add_argument(
         '--seconds', type=float, default=_SECONDS, metavar='S',
         help=f'wall time to look (default {_SECONDS:g})',
@@ -82,7 +81,7 @@ def look(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':
     run = chosen_run(arguments)
     if run is None:
         raise ConfigError('the doctor looks for an autopilot with --autopilot')
-    seen = cli_flight.look(run, arguments.scene, arguments.seconds)
+    seen = cli_flight.look(run, arguments.scene or _SCENE, arguments.seconds)
     table = Table('what', 'found', title=f'fluid_sim doctor --autopilot {arguments.autopilot}')
     for name, value in seen.items():
         shown = '\n'.join(map(str, value)) if isinstance(value, list) else str(value)

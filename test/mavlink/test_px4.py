@@ -88,7 +88,8 @@ def test_time_stands_still_until_px4_connects(flight):
     time.sleep(0.1)
     assert flight.simulation.step_count == 0
     assert flight.bridge.status().message == f'waiting for PX4 on TCP port {flight.port}'
-    Px4(flight.port).sensors()
+    px4 = Px4(flight.port)
+    px4.sensors()
     assert flight.bridge.status().level == 'warn'
     assert 'no answer yet' in flight.bridge.status().message
 
@@ -184,6 +185,7 @@ def test_a_px4_that_is_halted_stops_time_and_goes_on(monkeypatch):
     with Flight('x500_ground', 'px4', timeout=0.2).running() as flight:
         px4 = Px4(flight.port, silent=0)
         assert waited(lambda: flight.bridge._server.stuck, 20.0)
+        time.sleep(0.05)  # one exchange is under way
         step = flight.simulation.step_count
         assert flight.bridge.status().message == 'PX4 does not read; waiting for it'
         time.sleep(0.1)
