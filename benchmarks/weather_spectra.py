@@ -44,7 +44,7 @@ def medium(kind: str, seed: int) -> dict[str, Any]:
 
 def samples(kind: str, seed: int, minutes: float) -> Array:
     """Return what a vehicle meets at ticks and half-way between them, shape (time, 6)."""
-    body = free_body(ellipsoid([0.1] * 3, 1000) + body_plugin(volume='auto'))
+    body = free_body(ellipsoid([0.1] * 3, 1000) + body_plugin(volume='auto'), name='')
     model, data = load(world(body, medium=medium(kind, seed), timestep=TICK, integrator='Euler'))
     spec = mujoco.mjtState.mjSTATE_FULLPHYSICS
     start = np.empty(mujoco.mj_stateSize(model, spec))

@@ -82,6 +82,8 @@ void Discretise(const mjtNum* a, const mjtNum* b, mjtNum tick, Filter* f) {
   Cholesky(n, q, f->start);
 }
 
+constexpr int kPresent = 1;  // address of the present time, followed by outputs and derivatives
+
 struct Layout {
   mjtNum* tick;
   mjtNum* x;
@@ -89,7 +91,8 @@ struct Layout {
 };
 
 Layout Parts(const ColouredNoise& noise, mjtNum* state) {
-  return {state, state + 1, state + 1 + noise.states};
+  mjtNum* x = state + kPresent + 1 + 2 * noise.outputs;
+  return {state, x, x + noise.states};
 }
 
 // Shift the samples and append the outputs of x.
@@ -142,6 +145,44 @@ void Combine(const mjtNum* row, const mjtNum w[4], const mjtNum v[4], mjtNum* va
   }
 }
 
+// The cubic at a time.
+void Interpolate(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum time,
+                 const mjtNum* state, mjtNum* value, mjtNum* rate) {
+  const mjtNum ticks = time / noise.tick;
+  mjtNum before = std::floor(ticks);  // the cubic lies between this tick and the next
+  mjtNum copy[NoiseStateSize(kMostStates, kMostOutputs)];
+  if (before + 2 > state[0]) {
+    mju_copy(copy, state, noise.StateSize());
+    const Layout at = Parts(noise, copy);
+    while (*at.tick < before + 2) Tick(noise, seed, stream, at);
+    state = copy;
+  }
+  mjtNum s = ticks - before;
+  const mjtNum oldest = state[0] - kSamples + 1;
+  if (before - 1 < oldest) {
+    before = oldest + 1;
+    s = 0;
+  }
+  // Catmull-Rom: a cubic with the slopes (next - previous)/2 at both ends
+  const mjtNum s2 = s * s, s3 = s2 * s;
+  const mjtNum w[4] = {0.5 * (2 * s2 - s - s3), 0.5 * (3 * s3 - 5 * s2 + 2),
+                       0.5 * (4 * s2 - 3 * s3 + s), 0.5 * (s3 - s2)};
+  const mjtNum r = 0.5 / noise.tick;
+  const mjtNum v[4] = {r * (4 * s - 1 - 3 * s2), r * (9 * s2 - 10 * s), r * (8 * s - 9 * s2 + 1),
+                       r * (3 * s2 - 2 * s)};
+  const mjtNum* p = state + NoiseStateSize(noise.states, noise.outputs) - kSamples * noise.outputs +
+                    static_cast<int>(before - 1 - oldest) * noise.outputs;
+  (noise.outputs == 3 ? Combine<3> : Combine<6>)(p, w, v, value, rate);
+}
+
+// Keep what holds at a time.
+void SetPresent(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum time,
+                mjtNum* state) {
+  mjtNum* present = state + kPresent;
+  Interpolate(noise, seed, stream, time, state, present + 1, present + 1 + noise.outputs);
+  present[0] = time;
+}
+
 }  // namespace
 
 int ColouredNoise::StateSize() const { return NoiseStateSize(states, outputs); }
@@ -171,6 +212,7 @@ void StartNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t st
   mju_zero(at.samples, kSamples * noise.outputs);
   Append(noise, at);
   while (*at.tick < Needed(noise, 0)) Tick(noise, seed, stream, at);
+  SetPresent(noise, seed, stream, 0, state);
 }
 
 bool NoiseIsDue(const ColouredNoise& noise, mjtNum time, const mjtNum* state) {
@@ -183,35 +225,17 @@ void AdvanceNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t 
   const mjtNum needed = Needed(noise, time);
   if (needed < *at.tick) StartNoise(noise, seed, stream, state);  // the time went back
   while (*at.tick < needed) Tick(noise, seed, stream, at);
+  SetPresent(noise, seed, stream, time, state);
 }
 
 void SampleNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum time,
                  const mjtNum* state, mjtNum* value, mjtNum* rate) {
-  const mjtNum ticks = time / noise.tick;
-  mjtNum before = std::floor(ticks);  // the cubic lies between this tick and the next
-  mjtNum copy[NoiseStateSize(kMostStates, kMostOutputs)];
-  if (before + 2 > state[0]) {
-    mju_copy(copy, state, noise.StateSize());
-    const Layout at = Parts(noise, copy);
-    while (*at.tick < before + 2) Tick(noise, seed, stream, at);
-    state = copy;
+  const mjtNum* present = state + kPresent;
+  if (time != present[0]) return Interpolate(noise, seed, stream, time, state, value, rate);
+  for (int i = 0; i < noise.outputs; ++i) {
+    value[i] = present[1 + i];
+    rate[i] = present[1 + noise.outputs + i];
   }
-  mjtNum s = ticks - before;
-  const mjtNum oldest = state[0] - kSamples + 1;
-  if (before - 1 < oldest) {
-    before = oldest + 1;
-    s = 0;
-  }
-  // Catmull-Rom: a cubic with the slopes (next - previous)/2 at both ends
-  const mjtNum s2 = s * s, s3 = s2 * s;
-  const mjtNum w[4] = {0.5 * (2 * s2 - s - s3), 0.5 * (3 * s3 - 5 * s2 + 2),
-                       0.5 * (4 * s2 - 3 * s3 + s), 0.5 * (s3 - s2)};
-  const mjtNum r = 0.5 / noise.tick;
-  const mjtNum v[4] = {r * (4 * s - 1 - 3 * s2), r * (9 * s2 - 10 * s), r * (8 * s - 9 * s2 + 1),
-                       r * (3 * s2 - 2 * s)};
-  const mjtNum* p =
-      state + 1 + noise.states + static_cast<int>(before - 1 - oldest) * noise.outputs;
-  (noise.outputs == 3 ? Combine<3> : Combine<6>)(p, w, v, value, rate);
 }
 
 }  // namespace fluid_sim

@@ -2,8 +2,9 @@
 //
 // The samples at the ticks have the covariance of the continuous process; between them a cubic
 // through four of them gives a value with an exact derivative. So the same seed gives the same
-// signal whatever the timestep. The state is [latest tick, filter states, last samples]: it lives
-// in plugin_state and is all that the future depends on.
+// signal whatever the timestep. The state is [latest tick, present time, outputs and derivatives
+// then, filter states, last samples]: it lives in plugin_state and is all that the future depends
+// on. The present is kept because the bodies of a vehicle ask for it one after another.
 
 #ifndef FLUID_SIM_COLOURED_NOISE_H_
 #define FLUID_SIM_COLOURED_NOISE_H_
@@ -39,7 +40,9 @@ struct ColouredNoise {
 constexpr int kSamples = 6;
 
 // Size of the state of a noise with so many filter states and outputs.
-constexpr int NoiseStateSize(int states, int outputs) { return 1 + states + kSamples * outputs; }
+constexpr int NoiseStateSize(int states, int outputs) {
+  return 2 + states + (2 + kSamples) * outputs;
+}
 
 // Add a filter x' = A x + b n of `size` states; its outputs and weights are the caller's.
 Filter* AddFilter(ColouredNoise* noise, int size, const mjtNum* a, const mjtNum* b);
@@ -52,7 +55,7 @@ void StartNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t st
 void AdvanceNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum time,
                   mjtNum* state);
 
-// Whether AdvanceNoise would change the state.
+// Whether AdvanceNoise would draw.
 bool NoiseIsDue(const ColouredNoise& noise, mjtNum time, const mjtNum* state);
 
 // Outputs at a time and their derivatives. A time beyond the held samples is reached on a copy;

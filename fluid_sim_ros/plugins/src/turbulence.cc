@@ -213,8 +213,9 @@ void StartTurbulence(const Turbulence& t, std::uint64_t seed, std::uint64_t stre
 
 void AdvanceTurbulence(const Turbulence& t, std::uint64_t seed, std::uint64_t stream, mjtNum time,
                        const Followed& vehicle_at, mjtNum* state) {
-  if (!NoiseIsDue(t.noise, time, state)) return;
-  if (!t.follows) return AdvanceNoise(t.noise, seed, stream, time, state);
+  if (!t.follows || !NoiseIsDue(t.noise, time, state)) {
+    return AdvanceNoise(t.noise, seed, stream, time, state);
+  }
   mjtNum length[3];
   LengthsAt(vehicle_at.height, HighLength(t), length);
   // below a tenth of the stated airspeed the pattern would stand still
