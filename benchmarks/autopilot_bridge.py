@@ -39,6 +39,8 @@ ARDUPILOT_RATE = 400  # [Hz]
 TARGETS = {'real_time_factor': 20.0, 'overhead_per_step_us': 50.0}
 #: Exchanges before the measurement: the first answers, and caches.
 _WARM_UP = 200
+#: Exchanges in one round; bridged and bare rounds take turns, and their medians count.
+_ROUND = 250
 
 
 def px4_peer(port: int) -> None:
@@ -107,6 +109,13 @@ def measure(protocol: str, exchanges: int) -> dict[str, float]:
         runner.housekeeping = lambda: bridge.counters.answered >= target and runner.stop()
         runner.run(NEVER)
 
+    per_exchange = 2 if protocol == 'px4' else math.ceil(1 / ARDUPILOT_RATE / simulation.timestep)
+    bare, bridged, alone = Simulation(SCENE), [], []
+
+    def step_alone() -> None:
+        for _ in range(_ROUND):
+            bare.step(per_exchange)
+
     peer = {'px4': px4_peer, 'ardupilot': ardupilot_peer}[protocol]
     process = multiprocessing.get_context('spawn').Process(
         target=peer, args=(bridge.port,), daemon=True
@@ -115,25 +124,24 @@ def measure(protocol: str, exchanges: int) -> dict[str, float]:
     try:
         fly(_WARM_UP)
         pacing.overheads.clear()
-        wall = wall_seconds(lambda: fly(exchanges))
-        saved, steps = simulation.save_state(), simulation.step_count
+        bare.load_state(simulation.save_state())
+        for _ in range(exchanges // _ROUND):
+            bridged.append(wall_seconds(lambda: fly(_ROUND)))
+            alone.append(wall_seconds(step_alone))
     finally:
         process.terminate()
         bridge.close()
-    per_exchange = 2 if protocol == 'px4' else math.ceil(1 / ARDUPILOT_RATE / simulation.timestep)
-    bare = Simulation(SCENE)
-    bare.load_state(saved)
-    alone = wall_seconds(lambda: [bare.step(per_exchange) for _ in range(exchanges)])
     overheads = sorted(1e6 * spent for spent in pacing.overheads)
+    wall, bare_wall = statistics.median(bridged), statistics.median(alone)
     return {
         'exchange_rate_hz': rate,
         'exchanges': exchanges,
-        'steps': steps,
+        'steps': simulation.step_count,
         'missed': bridge.counters.missed,
-        'real_time_factor': exchanges / rate / wall,
-        'bare_real_time_factor': exchanges / rate / alone,
-        'share_of_bare_speed': alone / wall,
-        'exchange_us': 1e6 * wall / exchanges,
+        'real_time_factor': _ROUND / rate / wall,
+        'bare_real_time_factor': _ROUND / rate / bare_wall,
+        'share_of_bare_speed': bare_wall / wall,
+        'exchange_us': 1e6 * wall / _ROUND,
         'overhead_median_us': statistics.median(overheads),
         'overhead_p99_us': overheads[int(0.99 * len(overheads))],
         'overhead_per_step_median_us': statistics.median(overheads) / per_exchange,
