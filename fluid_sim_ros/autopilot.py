@@ -199,7 +199,7 @@ def open_bridge(
 
     """
     try:
-        part = import_module(_PART)
+        bridge: Bridge = import_module(_PART).open_bridge(simulation, options, surroundings)
     except ModuleNotFoundError as error:
         if error.name is None or error.name.startswith('fluid_sim_ros'):
             raise
@@ -207,5 +207,4 @@ def open_bridge(
             f'an autopilot needs {error.name}, which is not installed; '
             'fluid_sim doctor says what to type'
         ) from None
-    bridge: Bridge = part.open_bridge(simulation, options, surroundings)
     return bridge

@@ -3,6 +3,7 @@
 import math
 import random
 import socket
+import sys
 import time
 
 import hil_wire
@@ -10,7 +11,7 @@ import pytest
 from autopilot_peers import Flight, waited
 from px4_stand_in import Px4, Quad, Submarine
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.mavlink import px4 as px4_bridge
 from fluid_sim_ros.mavlink.hil_messages import dialect
 from fluid_sim_ros.resources import config_folder
@@ -365,6 +366,16 @@ def test_an_address_of_another_host_is_refused():
 def test_a_timestep_that_does_not_divide_4_ms_is_refused():
     with pytest.raises(ConfigError, match=r'timestep of 0\.005 s does not divide 4 ms'):
         Flight('aerosonde', 'px4')
+
+
+def test_a_missing_extra_is_named(monkeypatch):
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_messages')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_state')
+    monkeypatch.setitem(sys.modules, 'pymavlink.dialects.v20', None)
+    with pytest.raises(MissingExtraError, match='an autopilot needs pymavlink'):
+        Flight('x500_ground', 'px4')
+    Flight('x500_ground', 'ardupilot').bridge.close()  # which needs nothing
 
 
 def test_a_vehicle_without_the_sensors_is_refused(tmp_path):
