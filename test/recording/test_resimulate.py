@@ -50,6 +50,19 @@ def test_commands_are_fed_in(tmp_path):
     assert check_bits(path).commands >= 100
 
 
+@pytest.mark.parametrize('scene', ['x500_turbulence', 'bluerov2_current'])
+def test_gusts_are_repeated_and_another_seed_brings_others(scene, tmp_path):
+    path = tmp_path / 'a.mcap'
+    fly(path, scene, seconds=0.5, seed=5)
+    check_bits(path)
+    topic = '/medium/current' if 'current' in scene else '/medium/wind'
+    for seed, same in ((5, True), (6, False)):
+        again = resimulate(open_log(path), changes={'seed': seed}, keep=[topic])
+        pairs = [pair for rows in again.pairs.values() for pair in rows]
+        assert pairs
+        assert all(old == new for _, old, new in pairs) == same
+
+
 def test_a_scene_file_elsewhere_is_not_needed(tmp_path):
     model = tmp_path / 'ball.xml'
     model.write_text(
