@@ -67,7 +67,7 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
 
     from fluid_sim_ros.recorder_tap import RecordedTopic
     from fluid_sim_ros.ros import replay as ros
-    from fluid_sim_ros.ros.parameters import check_domain
+    from fluid_sim_ros.ros.preflight import check_domain
 
     check_domain()
     options = ros.ReplayOptions(arguments.rate, arguments.loop, arguments.paused)

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.torpedo import TorpedoController, TorpedoGains
-from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.controller_base import Answer, ControllerNode
-from fluid_sim_ros.ros.controller_parameters import Declared
+from fluid_sim_ros.ros.controller_parameters import DEPTH, HEADING
+from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.states import State
 
@@ -17,16 +17,10 @@ NODE_NAME = 'auv_controller'
 DEFAULT_SCENE = 'remus100'
 #: Joint actuators in the order of the law's answer.
 FINS = ('rudder', 'planes')
-_FIRST = 'nan = that of the first odometry; a waypoint takes its place'
 
 OWN = {
-    'depth': Declared(
-        math.nan, f'[m] depth to hold, below z = 0; {_FIRST}', live=True, may_be_nan=True
-    ),
-    'heading': Declared(
-        math.nan, f'[rad] heading to hold, counter-clockwise from east; {_FIRST}',
-        live=True, may_be_nan=True,
-    ),
+    'depth': DEPTH,
+    'heading': HEADING,
     'speed': Declared(1.5, '[m/s] forward speed over ground to hold', low=0, live=True),
     'waypoints': Declared(
         [], '[m, m, m, rad, s] x, y, z, yaw, hold of each waypoint, one after another; it heads '
@@ -43,13 +37,7 @@ class AuvController(ControllerNode):
 
     def __init__(self) -> None:
         super().__init__(NODE_NAME, DEFAULT_SCENE, TorpedoGains, OWN)
-        joints = self.vehicle.joints
-        if set(joints) != set(FINS):
-            raise ConfigError(
-                f"vehicle '{self.vehicle.name}' has the joint actuators: {listed(joints)}; this "
-                f'controller needs: {listed(FINS)}'
-            )
-        self._order = [FINS.index(name) for name in joints]
+        self._order = self.order_of_joints(FINS)
         self._law = TorpedoController(
             self.plant, float(abs(self.vehicle.joint_range).min()),
             parameters.gains(self, TorpedoGains),

@@ -10,7 +10,7 @@ which state it belongs to.
 import math
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from geometry_msgs.msg import PoseStamped
@@ -25,9 +25,11 @@ from sensor_msgs.msg import JointState
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
+from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.inputs import PolledGroup
+from fluid_sim_ros.ros.parameter_table import Table, declare, judge
 from fluid_sim_ros.ros.state_source import StateSource
 from fluid_sim_ros.ros.states import State
 from fluid_sim_ros.vehicle_plant import plant_of
@@ -117,12 +119,12 @@ class ControllerNode(Node, ABC):
         name: str,
         scene: str,
         gains: type[Gains],
-        own: Mapping[str, parameters.Declared] | None = None,
+        own: Table | None = None,
         medium: str = '',
     ) -> None:
         super().__init__(name)
         self._table = parameters.table_of(gains, own or {})
-        parameters.declare(self, self._table)
+        declare(self, self._table)
         self.add_on_set_parameters_callback(self._judge)
         self.add_post_set_parameters_callback(self._take)
         scene = self.get_parameter('scene').value or scene
@@ -153,6 +155,24 @@ class ControllerNode(Node, ABC):
         self._joints = None
         if vehicle.joints:
             self._joints = _Commands(self, f'{name}/cmd/joints', 'position', len(vehicle.joints))
+
+    def order_of_joints(self, commanded: Sequence[str]) -> list[int]:
+        """
+        Return where each joint actuator of the vehicle stands among those that a law commands.
+
+        Raises
+        ------
+        ConfigError
+            If the vehicle has others.
+
+        """
+        joints = self.vehicle.joints
+        if set(joints) != set(commanded):
+            raise ConfigError(
+                f"vehicle '{self.vehicle.name}' has the joint actuators: {listed(joints)}; this "
+                f'controller needs: {listed(commanded)}'
+            )
+        return [commanded.index(name) for name in joints]
 
     # ---- what a controller adds --------------------------------------------------------------
 
@@ -233,7 +253,7 @@ class ControllerNode(Node, ABC):
     # ---- parameters (executor thread) ----------------------------------------------------------
 
     def _judge(self, changes: list[Parameter]) -> SetParametersResult:
-        return parameters.judge(self._table, changes)
+        return judge(self._table, changes, fixed='the controller runs')
 
     def _take(self, changes: list[Parameter]) -> None:
         if any(change.name in self._table for change in changes):

@@ -1,26 +1,17 @@
-"""The node's parameters: one table that declares, checks and documents them."""
+"""The parameters of the simulator's node."""
 
-import math
-import os
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
-import yaml
-from rcl_interfaces.msg import (
-    FloatingPointRange,
-    IntegerRange,
-    ParameterDescriptor,
-    SetParametersResult,
-)
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from fluid_sim_ros.autopilot import LOOPBACK, PROTOCOLS
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.fluid_rungs import FLUID_RUNGS
+from fluid_sim_ros.ros import parameter_table
+from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.scene import INTEGRATORS
 
 PACINGS = ('realtime', 'free', 'lockstep')
@@ -28,40 +19,6 @@ MATCHES = ('stamp', 'count')
 TIMEOUT_RULES = ('hold', 'continue', 'stop')
 RECORD_POLICIES = ('block', 'drop')
 THRUST_UNITS = ('newton', 'normalized')
-#: Largest ROS_DOMAIN_ID whose UDP ports stay below 65536 (OMG DDSI-RTPS 2.5, section 9.6.2.3).
-_LARGEST_DOMAIN = 232
-
-
-@dataclass(frozen=True)
-class Declared:
-    """
-    One parameter.
-
-    Attributes
-    ----------
-    default
-        Its type is the parameter's type; a float also takes an integer.
-    description
-        Starts with the unit in brackets where there is one.
-    low, high
-        Allowed range of numbers, ends included.
-    choices
-        Allowed strings.
-    length
-        Allowed lengths of an array.
-    live
-        May change while the node is configured.
-
-    """
-
-    default: Any
-    description: str
-    low: float = -math.inf
-    high: float = math.inf
-    choices: tuple[str, ...] = ()
-    length: tuple[int, ...] = ()
-    live: bool = False
-
 
 _VARIANCE = [0.0] * 6
 
@@ -161,12 +118,15 @@ TABLE: dict[str, Declared] = {
     'markers.rate': Declared(20.0, '[Hz] of wall time', low=0.1, high=100),
 }
 
-_BUILT_IN = ('use_sim_time', 'start_type_description_service')
+USE_SIM_TIME_REFUSED = (
+    "parameter 'use_sim_time': must be false for this node, because it is the one that "
+    'publishes /clock'
+)
 
 
 def declare_all(node: Node) -> None:
     """
-    Declare the whole table on a node.
+    Declare the whole table on the node.
 
     Raises
     ------
@@ -175,78 +135,9 @@ def declare_all(node: Node) -> None:
 
     """
     given = node._parameter_overrides  # rclpy offers no public view of what the user passed
-    for name in given:
-        if name not in TABLE and name not in _BUILT_IN and not name.startswith('qos_overrides.'):
-            raise ConfigError(f"parameter '{name}' is not known; parameters: {listed(TABLE)}")
     if 'use_sim_time' in given and given['use_sim_time'].value:
         raise ConfigError(USE_SIM_TIME_REFUSED)
-    for name, declared in TABLE.items():
-        if name in given:
-            fault = check(name, given[name].value)
-            if fault:
-                raise ConfigError(fault)
-        node.declare_parameter(name, declared.default, _descriptor(declared))
-
-
-USE_SIM_TIME_REFUSED = (
-    "parameter 'use_sim_time': must be false for this node, because it is the one that "
-    'publishes /clock'
-)
-
-
-def _descriptor(declared: Declared) -> ParameterDescriptor:
-    descriptor = ParameterDescriptor(description=declared.description, dynamic_typing=True)
-    if declared.choices:
-        descriptor.additional_constraints = f'one of: {_choices(declared)}'
-    bounded = math.isfinite(declared.low) or math.isfinite(declared.high)
-    if bounded and isinstance(declared.default, float):
-        low, high = max(declared.low, -1e300), min(declared.high, 1e300)
-        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
-    elif bounded and isinstance(declared.default, int):
-        high = int(min(declared.high, 2**62))
-        descriptor.integer_range = [IntegerRange(from_value=int(declared.low), to_value=high)]
-    return descriptor
-
-
-def _choices(declared: Declared) -> str:
-    return listed(choice or '(empty)' for choice in declared.choices)
-
-
-def check(name: str, value: Any) -> str | None:
-    """Return what is wrong with a parameter's value in one line, or None."""
-    declared = TABLE[name]
-    where = f"parameter '{name}': {value!r}"
-    default = declared.default
-    if isinstance(default, list):
-        return _check_array(where, declared, value)
-    if isinstance(default, float):
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            return f'{where} is not a number'
-    elif type(value) is not type(default):
-        return f'{where} is not of type {type(default).__name__}'
-    if declared.choices and value not in declared.choices:
-        return f'{where} is not allowed; allowed: {_choices(declared)}'
-    if isinstance(default, int | float) and not isinstance(default, bool):
-        return _check_range(where, declared, [value])
-    return None
-
-
-def _check_array(where: str, declared: Declared, value: Any) -> str | None:
-    if (not isinstance(value, Sequence) and not hasattr(value, '__len__')) or isinstance(
-        value, str
-    ):
-        return f'{where} is not an array'
-    if isinstance(declared.default[0], str):
-        return None if all(isinstance(v, str) for v in value) else f'{where}: not all are strings'
-    if declared.length and len(value) not in declared.length:
-        return f'{where}: has {len(value)} values, needs {listed(map(str, declared.length))}'
-    return _check_range(where, declared, value)
-
-
-def _check_range(where: str, declared: Declared, values: Sequence[float]) -> str | None:
-    if all(math.isfinite(v) and declared.low <= v <= declared.high for v in values):
-        return None
-    return f'{where} is out of range; allowed: {declared.low:g} to {declared.high:g}'
+    parameter_table.declare(node, TABLE)
 
 
 def read_all(node: Node) -> dict[str, Any]:
@@ -260,81 +151,7 @@ def read_all(node: Node) -> dict[str, Any]:
 
 def judge_change(parameters: Sequence[Parameter], configured: bool) -> SetParametersResult:
     """Accept or refuse a change at run time, with the reason."""
-    for parameter in parameters:
-        name = parameter.name
-        if name == 'use_sim_time' and parameter.value:
-            return SetParametersResult(successful=False, reason=USE_SIM_TIME_REFUSED)
-        if name not in TABLE:
-            continue
-        fault = check(name, parameter.value)
-        if fault is None and configured and not TABLE[name].live:
-            live = listed(n for n, d in TABLE.items() if d.live)
-            fault = (
-                f"parameter '{name}': fixed while the node is configured (cleanup first); "
-                f'changeable: {live}'
-            )
-        if fault:
-            return SetParametersResult(successful=False, reason=fault)
-    return SetParametersResult(successful=True)
-
-
-def check_domain() -> None:
-    """
-    Check ROS_DOMAIN_ID, and keep discovery on this host unless the user opened it.
-
-    Raises
-    ------
-    ConfigError
-        If the domain is not a whole number from 0 to 232.
-
-    """
-    text = os.environ.get('ROS_DOMAIN_ID', '')
-    if text and not (text.isdecimal() and int(text) <= _LARGEST_DOMAIN):
-        raise ConfigError(f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to {_LARGEST_DOMAIN}")
-    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-
-
-def check_parameter_files(arguments: Sequence[str]) -> None:
-    """
-    Refuse parameter files that the ROS parser would read as something else without a word.
-
-    Raises
-    ------
-    ConfigError
-        If a ``--params-file`` is missing or holds more than flat ROS parameters.
-
-    """
-    for flag, value in pairwise(arguments):
-        if flag == '--params-file':
-            _check_parameter_file(Path(value))
-
-
-def _check_parameter_file(path: Path) -> None:
-    if not path.is_file():
-        raise ConfigError(f'{path}: no such parameter file')
-    try:
-        content = yaml.safe_load(path.read_text(encoding='utf-8'))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise ConfigError(f'{path}: not valid YAML: {" ".join(str(error).split())}') from None
-    if not isinstance(content, dict):
-        raise ConfigError(f'{path}: needs <node name>: ros__parameters: <parameters>')
-    for node, body in content.items():
-        parameters = body.get('ros__parameters') if isinstance(body, dict) else None
-        if not isinstance(parameters, dict):
-            raise ConfigError(
-                f"{path}: '{node}' holds no 'ros__parameters' mapping; this looks like a scene or "
-                "vehicle file, which belongs in the parameter 'scene'"
-            )
-        _check_flat(path, '', parameters)
-
-
-def _check_flat(path: Path, prefix: str, parameters: dict[str, Any]) -> None:
-    for key, value in parameters.items():
-        name = f'{prefix}{key}'
-        if isinstance(value, dict):
-            _check_flat(path, f'{name}.', value)
-        elif isinstance(value, list) and any(isinstance(v, dict | list) for v in value):
-            raise ConfigError(
-                f"{path}: parameter '{name}' is a list of mappings or lists, which ROS cannot "
-                'hold; scenes and vehicles have files of their own (config/scenes)'
-            )
+    if any(change.name == 'use_sim_time' and change.value for change in parameters):
+        return SetParametersResult(successful=False, reason=USE_SIM_TIME_REFUSED)
+    fixed = 'the node is configured (cleanup first)' if configured else ''
+    return parameter_table.judge(TABLE, parameters, fixed)

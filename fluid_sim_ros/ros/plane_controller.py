@@ -10,10 +10,10 @@ from fluid_sim_ros.control.fixed_wing import (
     FixedWingController,
     FixedWingGains,
 )
-from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.controller_base import Answer, ControllerNode
-from fluid_sim_ros.ros.controller_parameters import Declared
+from fluid_sim_ros.ros.controller_parameters import HEADING, OF_FIRST
+from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.states import State
 
@@ -21,16 +21,12 @@ NODE_NAME = 'plane_controller'
 DEFAULT_SCENE = 'aerosonde'
 #: Joint actuators that the law commands, in any order.
 SURFACES = FixedWingCommand._fields[1:]
-_FIRST = 'nan = that of the first odometry; a waypoint takes its place'
 
 OWN = {
     'altitude': Declared(
-        math.nan, f'[m] altitude to hold, above z = 0; {_FIRST}', live=True, may_be_nan=True
+        math.nan, f'[m] altitude to hold, above z = 0; {OF_FIRST}', live=True, may_be_nan=True
     ),
-    'heading': Declared(
-        math.nan, f'[rad] heading to hold, counter-clockwise from east; {_FIRST}',
-        live=True, may_be_nan=True,
-    ),
+    'heading': HEADING,
     'airspeed': Declared(25.0, '[m/s] airspeed to hold', low=0, live=True),
     'waypoints': Declared(
         [], '[m, m, m, rad, s] x, y, z, course, hold of each waypoint, one after another; flown '
@@ -52,15 +48,9 @@ class PlaneController(ControllerNode):
 
     def __init__(self) -> None:
         super().__init__(NODE_NAME, DEFAULT_SCENE, FixedWingGains, OWN, medium='wind')
-        vehicle, joints = self.vehicle, self.vehicle.joints
-        if set(joints) != set(SURFACES):
-            raise ConfigError(
-                f"vehicle '{vehicle.name}' has the joint actuators: {listed(joints)}; this "
-                f'controller needs: {listed(SURFACES)}'
-            )
-        self._places = [FixedWingCommand._fields.index(name) for name in joints]
+        self._order = self.order_of_joints(SURFACES)
         self._law = FixedWingController(
-            self.plant, float(abs(vehicle.joint_range).min()),
+            self.plant, float(abs(self.vehicle.joint_range).min()),
             parameters.gains(self, FixedWingGains),
         )  # fmt: skip
         self._first: tuple[float, float] | None = None
@@ -87,11 +77,11 @@ class PlaneController(ControllerNode):
         waypoint = self.plan.target(time, state.position_w, rot.yaw_of(r_wb))
         if waypoint is not None:
             line, altitude, heading = waypoint.position_w, waypoint.position_w[2], waypoint.yaw
-        command = self._law.step(
+        thrust, *surfaces = self._law.step(
             time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
             state.medium_w, altitude, heading, airspeed, line_w=line,
         )  # fmt: skip
-        return Answer([command.thrust], [command[place] for place in self._places])
+        return Answer([thrust], [surfaces[i] for i in self._order])
 
 
 def main(args: Sequence[str] | None = None) -> int:

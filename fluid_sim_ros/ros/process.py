@@ -12,7 +12,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.ros.parameters import check_domain, check_parameter_files
+from fluid_sim_ros.ros.preflight import check_domain, check_parameter_files
 
 
 class LoopingNode(Protocol):

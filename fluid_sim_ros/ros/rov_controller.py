@@ -8,22 +8,17 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
 from fluid_sim_ros.ros import controller_parameters as parameters
 from fluid_sim_ros.ros.controller_base import Answer, ControllerNode
-from fluid_sim_ros.ros.controller_parameters import Declared
+from fluid_sim_ros.ros.controller_parameters import DEPTH, HEADING
+from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.ros.process import run_process
 from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'rov_controller'
 DEFAULT_SCENE = 'rov'
-_FIRST = 'nan = that of the first odometry; a waypoint takes its place'
 
 OWN = {
-    'depth': Declared(
-        math.nan, f'[m] depth to hold, below z = 0; {_FIRST}', live=True, may_be_nan=True
-    ),
-    'heading': Declared(
-        math.nan, f'[rad] heading to hold, counter-clockwise from east; {_FIRST}',
-        live=True, may_be_nan=True,
-    ),
+    'depth': DEPTH,
+    'heading': HEADING,
     'surge': Declared(
         0.0, '[m/s] speed over ground along the heading, without a waypoint', live=True
     ),

@@ -10,14 +10,15 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.ros import controller_parameters, parameters
+from fluid_sim_ros.ros import controller_parameters, parameters, preflight
+from fluid_sim_ros.ros.parameter_table import check
 
 pytestmark = pytest.mark.ros
 
 
 def test_every_default_passes_its_own_check():
     for name, declared in parameters.TABLE.items():
-        assert parameters.check(name, declared.default) is None, name
+        assert check(parameters.TABLE, name, declared.default) is None, name
 
 
 def test_numbers_name_their_unit():
@@ -44,7 +45,7 @@ def test_numbers_name_their_unit():
     ],
 )
 def test_check_names_what_is_allowed(name, value, fault):
-    found = parameters.check(name, value)
+    found = check(parameters.TABLE, name, value)
     if fault is None:
         assert found is None
     else:
@@ -63,15 +64,15 @@ def test_physics_is_fixed_while_configured_and_pacing_is_not():
 
 @pytest.mark.parametrize('path', sorted((config_folder() / 'params').glob('*.yaml')), ids=str)
 def test_shipped_parameter_files_hold_known_flat_parameters(path):
-    parameters.check_parameter_files(['--params-file', str(path)])
+    preflight.check_parameter_files(['--params-file', str(path)])
     nodes = yaml.safe_load(path.read_text())
     for name, value in nodes.pop('fluid_sim_node')['ros__parameters'].items():
-        assert parameters.check(name, value) is None
+        assert check(parameters.TABLE, name, value) is None
     for node, body in nodes.items():
         module = importlib.import_module(f'fluid_sim_ros.ros.{node}')
+        table = {**controller_parameters.COMMON, **module.OWN}
         for name, value in body['ros__parameters'].items():
-            declared = {**controller_parameters.COMMON, **module.OWN}[name]
-            assert controller_parameters.check(declared, name, value) is None
+            assert check(table, name, value) is None
 
 
 @pytest.mark.parametrize(
@@ -88,25 +89,25 @@ def test_a_file_that_ros_would_mangle_is_refused(tmp_path, text, line):
     path = tmp_path / 'p.yaml'
     path.write_text(text)
     with pytest.raises(ConfigError, match=line):
-        parameters.check_parameter_files(['--ros-args', '--params-file', str(path)])
+        preflight.check_parameter_files(['--ros-args', '--params-file', str(path)])
 
 
 def test_a_missing_parameter_file_is_named():
     with pytest.raises(ConfigError, match=r'gone\.yaml: no such parameter file'):
-        parameters.check_parameter_files(['--params-file', 'gone.yaml'])
+        preflight.check_parameter_files(['--params-file', 'gone.yaml'])
 
 
 @pytest.mark.parametrize('text', ['233', '-1', 'abc', '1.5', '99999999999'])
 def test_a_wrong_domain_is_refused(monkeypatch, text):
     monkeypatch.setenv('ROS_DOMAIN_ID', text)
     with pytest.raises(ConfigError, match=f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to 232"):
-        parameters.check_domain()
+        preflight.check_domain()
 
 
 def test_discovery_stays_on_this_host_unless_opened(monkeypatch):
     monkeypatch.delenv('ROS_AUTOMATIC_DISCOVERY_RANGE', raising=False)
-    parameters.check_domain()
+    preflight.check_domain()
     assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'LOCALHOST'
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
-    parameters.check_domain()
+    preflight.check_domain()
     assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'SUBNET'

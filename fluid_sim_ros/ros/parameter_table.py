@@ -1,0 +1,161 @@
+"""Tables of ROS parameters: what declares them on a node, checks them and documents them."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from fluid_sim_ros.errors import ConfigError, listed
+
+_BUILT_IN = ('use_sim_time', 'start_type_description_service')
+
+
+@dataclass(frozen=True)
+class Declared:
+    """
+    One parameter.
+
+    Attributes
+    ----------
+    default
+        Its type is the parameter's type; a float also takes an integer; an empty list holds
+        floats.
+    description
+        Starts with the unit in brackets where there is one.
+    low, high
+        Allowed range of numbers, ends included.
+    choices
+        Allowed strings.
+    length
+        Allowed lengths of an array.
+    live
+        May change at run time; the others are fixed while what they set up is there.
+    may_be_nan
+        ``nan`` is allowed and means what the description says.
+
+    """
+
+    default: Any
+    description: str
+    low: float = -math.inf
+    high: float = math.inf
+    choices: tuple[str, ...] = ()
+    length: tuple[int, ...] = ()
+    live: bool = False
+    may_be_nan: bool = False
+
+
+Table = Mapping[str, Declared]
+
+
+def declare(node: Node, table: Table) -> None:
+    """
+    Declare a table on a node.
+
+    Raises
+    ------
+    ConfigError
+        If an override names no parameter, has the wrong type, or is out of range.
+
+    """
+    given = node._parameter_overrides  # rclpy offers no public view of what the user passed
+    for name, override in given.items():
+        if name in table:
+            fault = check(table, name, override.value)
+            if fault:
+                raise ConfigError(fault)
+        elif name not in _BUILT_IN and not name.startswith('qos_overrides.'):
+            raise ConfigError(f"parameter '{name}' is not known; parameters: {listed(table)}")
+    for name, declared in table.items():
+        node.declare_parameter(name, declared.default, _descriptor(declared))
+
+
+def _descriptor(declared: Declared) -> ParameterDescriptor:
+    descriptor = ParameterDescriptor(description=declared.description, dynamic_typing=True)
+    if declared.choices:
+        descriptor.additional_constraints = f'one of: {_choices(declared)}'
+    bounded = math.isfinite(declared.low) or math.isfinite(declared.high)
+    if bounded and isinstance(declared.default, float):
+        low, high = max(declared.low, -1e300), min(declared.high, 1e300)
+        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    elif bounded and isinstance(declared.default, int):
+        high = int(min(declared.high, 2**62))
+        descriptor.integer_range = [IntegerRange(from_value=int(declared.low), to_value=high)]
+    return descriptor
+
+
+def _choices(declared: Declared) -> str:
+    return listed(choice or '(empty)' for choice in declared.choices)
+
+
+def check(table: Table, name: str, value: Any) -> str | None:
+    """Return what is wrong with a parameter's value in one line, or None."""
+    declared = table[name]
+    where = f"parameter '{name}': {value!r}"
+    default = declared.default
+    if isinstance(default, list):
+        return _check_array(where, declared, value)
+    if isinstance(default, float):
+        if not _is_number(value):
+            return f'{where} is not a number'
+    elif type(value) is not type(default):
+        return f'{where} is not of type {type(default).__name__}'
+    if declared.choices and value not in declared.choices:
+        return f'{where} is not allowed; allowed: {_choices(declared)}'
+    if isinstance(default, int | float) and not isinstance(default, bool):
+        return _check_range(where, declared, [value])
+    return None
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _check_array(where: str, declared: Declared, value: Any) -> str | None:
+    if isinstance(value, str | bytes) or not hasattr(value, '__len__'):
+        return f'{where} is not an array'
+    if declared.default and isinstance(declared.default[0], str):
+        return None if all(isinstance(v, str) for v in value) else f'{where}: not all are strings'
+    if not all(map(_is_number, value)):
+        return f'{where}: not all are numbers'
+    if declared.length and len(value) not in declared.length:
+        return f'{where}: has {len(value)} values, needs {listed(map(str, declared.length))}'
+    return _check_range(where, declared, value)
+
+
+def _check_range(where: str, declared: Declared, values: Sequence[float]) -> str | None:
+    for value in values:
+        if math.isnan(value) and declared.may_be_nan:
+            continue
+        if not (math.isfinite(value) and declared.low <= value <= declared.high):
+            return f'{where} is out of range; allowed: {declared.low:g} to {declared.high:g}'
+    return None
+
+
+def judge(table: Table, changes: Sequence[Parameter], fixed: str) -> SetParametersResult:
+    """
+    Accept or refuse a change at run time, with the reason.
+
+    ``fixed`` says while what the parameters that are not live keep their values; empty: they may
+    change now.
+    """
+    for change in changes:
+        declared = table.get(change.name)
+        if declared is None:
+            continue
+        fault = check(table, change.name, change.value)
+        if fault is None and fixed and not declared.live:
+            live = listed(name for name, entry in table.items() if entry.live)
+            fault = f"parameter '{change.name}': fixed while {fixed}; changeable: {live}"
+        if fault:
+            return SetParametersResult(successful=False, reason=fault)
+    return SetParametersResult(successful=True)
