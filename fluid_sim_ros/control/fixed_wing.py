@@ -8,8 +8,8 @@ from typing import NamedTuple
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
+from fluid_sim_ros.control.law import ControlLaw, clamp, within
 from fluid_sim_ros.control.plant import Plant
-from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
 
 _G = 9.81  # [m/s^2]
@@ -24,38 +24,35 @@ class FixedWingGains(Gains):
     scale them to other airspeeds, so they only need to be near.
     """
 
-    cruise_airspeed: float = gain(25.0, 'm/s', 'airspeed of the values at cruise')
+    cruise_airspeed: float = gain(25.0, 'm/s', 'airspeed of the values at cruise', positive=True)
     cruise_thrust: float = gain(52.9, 'N', 'thrust command at cruise')
     cruise_pitch: float = gain(0.05, 'rad', 'angle of attack at cruise')
     cruise_lift: float = gain(0.088, 'rad', 'angle of attack that carries the weight at cruise')
     cruise_elevator: float = gain(0.124, 'rad', 'elevator, trailing edge up, at cruise')
-    energy: float = gain(0.5, '1/s', 'rate asked for per error of the total energy')
+    energy: float = gain(0.5, '1/s', 'rate asked for per error of the total energy', positive=True)
     energy_integral: float = gain(0.02, '1/s^2', 'growth of that rate per error')
-    balance: float = gain(0.7, '1/s', 'rate asked for per error of height less kinetic energy')
+    balance: float = gain(
+        0.7, '1/s', 'rate asked for per error of height less kinetic energy', positive=True
+    )
     balance_integral: float = gain(0.04, '1/s^2', 'growth of that rate per error')
     heading: float = gain(0.5, '1/s', 'turn rate asked for per heading or course error')
     line: float = gain(0.02, '1/m', 'steepness of the course towards a line')
-    max_intercept: float = gain(1.0, 'rad', 'largest angle between course and line far from it')
+    max_intercept: float = gain(
+        1.0, 'rad', 'largest angle between course and line far from it', acute=True
+    )
     attitude: float = gain(4.0, '1/s', 'rate asked for per roll or pitch error')
     rate: float = gain(0.12, 's', 'aileron and elevator per rate error, at cruise')
     rate_integral: float = gain(0.8, '-', 'growth of aileron and elevator per rate error')
     yaw_rate: float = gain(0.3, 's', 'rudder per yaw rate beyond that of a coordinated turn')
     max_climb: float = gain(2.5, 'm/s', 'largest climb asked for')
     max_airspeed_error: float = gain(3.0, 'm/s', 'airspeed error from which on more does nothing')
-    max_bank: float = gain(0.7, 'rad', 'largest bank')
-    max_pitch: float = gain(0.35, 'rad', 'largest pitch up or down')
+    max_bank: float = gain(0.7, 'rad', 'largest bank', acute=True)
+    max_pitch: float = gain(0.35, 'rad', 'largest pitch up or down', acute=True)
     max_rate: float = gain(1.5, 'rad/s', 'largest roll or pitch rate asked for')
     idle_thrust: float = gain(20.0, 'N', 'least thrust command; a stopped propeller is a brake')
-    min_airspeed: float = gain(17.0, 'm/s', 'least airspeed held, whatever is asked for')
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ('cruise_airspeed', 'min_airspeed', 'balance', 'energy'):
-            if getattr(self, name) <= 0:
-                raise ConfigError(f"gain '{name}': {getattr(self, name)}; must be above 0")
-        for name in ('max_bank', 'max_pitch', 'max_intercept'):
-            if getattr(self, name) >= math.pi / 2:
-                raise ConfigError(f"gain '{name}': {getattr(self, name)}; must be below pi/2 rad")
+    min_airspeed: float = gain(
+        17.0, 'm/s', 'least airspeed held, whatever is asked for', positive=True
+    )
 
 
 class FixedWingCommand(NamedTuple):
@@ -67,7 +64,7 @@ class FixedWingCommand(NamedTuple):
     rudder: float
 
 
-class FixedWingController:
+class FixedWingController(ControlLaw):
     """
     Holds altitude, airspeed, and a heading or a line over ground, in wind and gusts.
 
@@ -118,15 +115,10 @@ class FixedWingController:
                 f"gain 'cruise_thrust': {gains.cruise_thrust:g} N; must lie between "
                 f'{self._lowest:g} and {self._highest:g} N, the limits of the thruster'
             )
-        self._clock = StampClock()
         self._energy = Integral(gains.energy_integral, gains.max_climb, 1)
         self._balance = Integral(gains.balance_integral, 2.0 * gains.max_climb, 1)
         self._rates = Integral(gains.rate_integral, max_deflection, 2)
-
-    @property
-    def restarted(self) -> bool:
-        """True when the last step saw time go back, or was the first."""
-        return self._clock.restarted
+        super().__init__(self._energy, self._balance, self._rates)
 
     def step(
         self,
@@ -161,15 +153,11 @@ class FixedWingController:
             A point [m] on the line over ground to follow, whose direction is ``heading``.
 
         """
-        dt = self._clock.advance(time)
-        for integral in (self._energy, self._balance, self._rates):
-            if self._clock.restarted:
-                integral.restart()
-            integral.advance(dt)
+        self._advance(time)
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         velocity_w = rot.to_world(r_wb, velocity_b)
         speed = max(math.dist(velocity_w, wind_w), 0.5 * self.gains.min_airspeed)
-        roll = math.atan2(r_wb[7], r_wb[8])
+        roll = rot.roll_of(r_wb)
 
         error = rot.wrap(heading - rot.yaw_of(r_wb))
         over_ground = speed
@@ -194,8 +182,7 @@ class FixedWingController:
     def _bank(self, error: float, speed: float) -> float:
         """Return the bank [rad], right wing down, for a heading error [rad], left."""
         gains = self.gains
-        bank = -math.atan(speed / _G * gains.heading * error)
-        return min(max(bank, -gains.max_bank), gains.max_bank)
+        return within(-math.atan(speed / _G * gains.heading * error), gains.max_bank)
 
     def _energies(
         self, climb: float, speed: float, wanted: float, roll: float
@@ -203,31 +190,26 @@ class FixedWingController:
         """Return thrust command [N] and pitch [rad] for an altitude error [m] and airspeeds."""
         gains = self.gains
         most = gains.max_climb / max(gains.energy, gains.balance)
-        height = min(max(climb, -most), most)
-        faster = min(max(wanted - speed, -gains.max_airspeed_error), gains.max_airspeed_error)
+        height = within(climb, most)
+        faster = within(wanted - speed, gains.max_airspeed_error)
         kinetic = faster * (speed + 0.5 * faster) / _G
         relative = wanted / gains.cruise_airspeed
 
         energy = height + kinetic
         rate = gains.energy * energy + self._energy.value[0]
         thrust = gains.cruise_thrust * relative**2 + self._weight / speed * rate
-        bounded = min(max(thrust, self._lowest), self._highest)
+        bounded = clamp(thrust, self._lowest, self._highest)
         # beyond the clamp the error says nothing of the trim
-        if bounded == thrust and height == climb:
-            self._energy.keep((energy,))
-        else:
-            self._energy.stand_still()
+        far = height != climb
+        self._energy.keep(energy, limited=far or bounded != thrust)
 
         balance = height - kinetic
         load = 1.0 / max(math.cos(roll), 0.5)
         incidence = gains.cruise_pitch + gains.cruise_lift * (load / relative**2 - 1.0)
         rate = gains.balance * balance + self._balance.value[0]
         pitch = incidence + rate / (2.0 * speed)
-        if abs(pitch) < gains.max_pitch and height == climb:
-            self._balance.keep((balance,))
-        else:
-            self._balance.stand_still()
-        return bounded, min(max(pitch, -gains.max_pitch), gains.max_pitch)
+        self._balance.keep(balance, limited=far or abs(pitch) >= gains.max_pitch)
+        return bounded, within(pitch, gains.max_pitch)
 
     def _deflect(
         self,
@@ -241,22 +223,22 @@ class FixedWingController:
         """Return aileron and elevator [rad] for a bank and a pitch [rad]."""
         gains, most, limit = self.gains, self.gains.max_rate, self._max_deflection
         # pitch up is a turn about -y; in a bank the nose stays up by a pitch rate of its own
-        nose_up = math.asin(min(max(r_wb[6], -1.0), 1.0))
-        turning = _G / speed * math.tan(min(max(roll, -1.0), 1.0)) * math.sin(roll)
-        rolling = min(max(gains.attitude * rot.wrap(bank - roll), -most), most) - omega_b[0]
-        pitching = min(max(gains.attitude * (pitch - nose_up), -most), most) + turning + omega_b[1]
+        nose_up = rot.elevation_of(r_wb)
+        turning = _G / speed * math.tan(within(roll, 1.0)) * math.sin(roll)
+        rolling = within(gains.attitude * rot.wrap(bank - roll), most) - omega_b[0]
+        pitching = within(gains.attitude * (pitch - nose_up), most) + turning + omega_b[1]
         scale = (gains.cruise_airspeed / speed) ** 2
         held_roll, held_pitch = self._rates.value
         aileron = scale * (gains.rate * rolling + held_roll)
         elevator = -scale * (gains.rate * pitching + held_pitch + gains.cruise_elevator)
-        self._rates.keep((
-            rolling if abs(aileron) < limit else 0.0, pitching if abs(elevator) < limit else 0.0,
-        ))  # fmt: skip
-        return min(max(aileron, -limit), limit), min(max(elevator, -limit), limit)
+        self._rates.keep(
+            rolling if abs(aileron) < limit else 0.0, pitching if abs(elevator) < limit else 0.0
+        )
+        return within(aileron, limit), within(elevator, limit)
 
     def _rudder(self, yaw_rate: float, roll: float, speed: float) -> float:
         """Return the rudder [rad] that damps what is not the yaw rate of a coordinated turn."""
         gains, limit = self.gains, self._max_deflection
         coordinated = -_G / speed * math.sin(roll)
         scale = (gains.cruise_airspeed / speed) ** 2
-        return min(max(scale * gains.yaw_rate * (coordinated - yaw_rate), -limit), limit)
+        return within(scale * gains.yaw_rate * (coordinated - yaw_rate), limit)

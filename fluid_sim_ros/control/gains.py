@@ -7,9 +7,16 @@ from typing import Any
 from fluid_sim_ros.errors import ConfigError
 
 
-def gain(default: float, unit: str, meaning: str) -> Any:
-    """Return a dataclass field of a gain or limit with its unit and meaning."""
-    return field(default=default, metadata={'unit': unit, 'meaning': meaning})
+def gain(
+    default: float, unit: str, meaning: str, *, positive: bool = False, acute: bool = False
+) -> Any:
+    """
+    Return a dataclass field of a gain or limit with its unit and meaning.
+
+    ``positive``: it must not be 0. ``acute``: an angle below pi/2.
+    """
+    metadata = {'unit': unit, 'meaning': meaning, 'positive': positive, 'acute': acute}
+    return field(default=default, metadata=metadata)
 
 
 def describe(entry: 'Field[Any]') -> str:
@@ -19,10 +26,14 @@ def describe(entry: 'Field[Any]') -> str:
 
 @dataclass(frozen=True)
 class Gains:
-    """Base of gain sets: every value is finite and at least 0."""
+    """Base of gain sets: every value is finite, at least 0, and as its field asks."""
 
     def __post_init__(self) -> None:
         for entry in fields(self):
             value = getattr(self, entry.name)
             if not (math.isfinite(value) and value >= 0):
                 raise ConfigError(f"gain '{entry.name}': {value}; must be finite and at least 0")
+            if entry.metadata['positive'] and value == 0:
+                raise ConfigError(f"gain '{entry.name}': {value}; must be above 0")
+            if entry.metadata['acute'] and value >= math.pi / 2:
+                raise ConfigError(f"gain '{entry.name}': {value}; must be below pi/2 rad")

@@ -1,7 +1,5 @@
 """The integral term of a control law: bounded, and the same for a state that comes twice."""
 
-from collections.abc import Sequence
-
 
 class Integral:
     """
@@ -31,12 +29,12 @@ class Integral:
         self._rate = rate
         self._bound = bound
         self.value = [0.0] * axes
-        self._pending = (0.0,) * axes
+        self._pending: tuple[float, ...] = (0.0,) * axes
 
     def restart(self) -> None:
         """Begin at zero."""
         self.value = [0.0] * len(self.value)
-        self.stand_still()
+        self._pending = (0.0,) * len(self.value)
 
     def advance(self, dt: float) -> None:
         """Integrate the error kept over the time since its state [s]."""
@@ -44,10 +42,6 @@ class Integral:
         for axis, error in enumerate(self._pending):
             value[axis] = min(max(value[axis] + gain * error, -bound), bound)
 
-    def keep(self, error: Sequence[float]) -> None:
-        """Keep the errors of this state, one per axis."""
-        self._pending = tuple(error)
-
-    def stand_still(self) -> None:
-        """Keep nothing: a limit binds at this state."""
-        self._pending = (0.0,) * len(self.value)
+    def keep(self, *error: float, limited: bool = False) -> None:
+        """Keep the errors of this state, one per axis; or nothing, where a limit binds at it."""
+        self._pending = (0.0,) * len(error) if limited else error

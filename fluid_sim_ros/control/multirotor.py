@@ -9,8 +9,8 @@ from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.approach import Approach
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
+from fluid_sim_ros.control.law import ControlLaw, clamp, within
 from fluid_sim_ros.control.plant import Plant
-from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
 
 #: Roll and pitch before thrust: a vehicle that cannot tilt cannot be saved by more thrust; the
@@ -36,7 +36,7 @@ class MultirotorGains(Gains):
     max_climb: float = gain(2.0, 'm/s', 'largest vertical speed')
     max_acceleration: float = gain(3.0, 'm/s^2', 'largest change of the horizontal speed')
     max_lift: float = gain(2.0, 'm/s^2', 'largest change of the vertical speed')
-    max_tilt: float = gain(0.6, 'rad', 'largest angle between thrust and up')
+    max_tilt: float = gain(0.6, 'rad', 'largest angle between thrust and up', acute=True)
     max_rate: float = gain(4.0, 'rad/s', 'largest rate asked for')
     max_integral: float = gain(6.0, 'm/s^2', 'largest acceleration of the integrator on each axis')
     thrust_margin: float = gain(
@@ -45,13 +45,11 @@ class MultirotorGains(Gains):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.max_tilt >= math.pi / 2:
-            raise ConfigError(f"gain 'max_tilt': {self.max_tilt}; must be below pi/2 rad")
         if self.thrust_margin >= 0.5:
             raise ConfigError(f"gain 'thrust_margin': {self.thrust_margin}; must be below 0.5")
 
 
-class MultirotorController:
+class MultirotorController(ControlLaw):
     """
     Holds a position and a heading, in wind too.
 
@@ -83,13 +81,8 @@ class MultirotorController:
         self._tan_tilt = math.tan(gains.max_tilt)
         self._across = Approach(gains.position, gains.max_speed, gains.max_acceleration)
         self._upward = Approach(gains.position, gains.max_climb, gains.max_lift)
-        self._clock = StampClock()
         self._integral = Integral(gains.integral, gains.max_integral)
-
-    @property
-    def restarted(self) -> bool:
-        """True when the last step saw time go back, or was the first."""
-        return self._clock.restarted
+        super().__init__(self._integral)
 
     @property
     def integral_w(self) -> tuple[float, float, float]:
@@ -126,25 +119,20 @@ class MultirotorController:
         Thrusts [N], one per thruster.
 
         """
-        dt = self._clock.advance(time)
+        dt = self._advance(time)
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         velocity_w = rot.to_world(r_wb, velocity_b)
-        if self._clock.restarted:
-            self._integral.restart()
+        if self.restarted:
             self._across.restart(velocity_w[0], velocity_w[1])
             self._upward.restart(velocity_w[2], 0.0)
-        self._integral.advance(dt)
         error = self._speed_error(position_w, velocity_w, target_w, dt)
         force_w, limited = self._force(error)
         thrust = rot.to_body(r_wb, force_w)[2]
-        bounded = min(max(thrust, self._lowest), self._highest)
+        bounded = clamp(thrust, self._lowest, self._highest)
 
         torque_b = self._torque(r_wb, omega_b, force_w, yaw)
         thrusts = self.allocator.allocate((0.0, 0.0, bounded, *torque_b))
-        if limited or bounded != thrust:
-            self._integral.stand_still()
-        else:
-            self._integral.keep(error)
+        self._integral.keep(*error, limited=limited or bounded != thrust)
         return thrusts
 
     def _speed_error(
@@ -187,11 +175,11 @@ class MultirotorController:
         ex, ey, ez = rot.error(desired, r_wb)
         wx, wy, wz = omega_b
         most = gains.max_rate
-        ax = gains.rate * (min(max(gains.attitude * ex, -most), most) - wx)
-        ay = gains.rate * (min(max(gains.attitude * ey, -most), most) - wy)
+        ax = gains.rate * (within(gains.attitude * ex, most) - wx)
+        ay = gains.rate * (within(gains.attitude * ey, most) - wy)
         # yaw: the attitude gain falls with the rate gain, so that the pair stays damped
         yaw_gain = gains.attitude * gains.yaw_rate / gains.rate if gains.rate else 0.0
-        az = gains.yaw_rate * (min(max(yaw_gain * ez, -most), most) - wz)
+        az = gains.yaw_rate * (within(yaw_gain * ez, most) - wz)
         return (
             jx * ax + (jz - jy) * wy * wz,
             jy * ay + (jx - jz) * wz * wx,

@@ -117,6 +117,16 @@ def yaw_of(rotation_wb: Rotation) -> float:
     return math.atan2(rotation_wb[3], rotation_wb[0])
 
 
+def roll_of(rotation_wb: Rotation) -> float:
+    """Return the roll about the body's x axis [rad], right side down; 0 when level."""
+    return math.atan2(rotation_wb[7], rotation_wb[8])
+
+
+def elevation_of(rotation_wb: Rotation) -> float:
+    """Return the angle of the body's x axis above the horizon [rad]: pitch, nose up."""
+    return math.asin(min(max(rotation_wb[6], -1.0), 1.0))
+
+
 def wrap(angle: float) -> float:
     """Return the same angle in [-pi, pi]."""
     return math.remainder(angle, math.tau)

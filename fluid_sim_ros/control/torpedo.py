@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
+from fluid_sim_ros.control.law import ControlLaw, clamp, within
 from fluid_sim_ros.control.plant import Plant
-from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
 
 
@@ -29,13 +29,13 @@ class TorpedoGains(Gains):
     )  # fmt: skip
     fin_authority: float = gain(
         0.74, '1/m^2', 'angular acceleration by the fins per deflection and squared speed; of the '
-        'REMUS 100: Muuds over moment of inertia and added moment of inertia'
+        'REMUS 100: Muuds over moment of inertia and added moment of inertia', positive=True
     )  # fmt: skip
     speed: float = gain(0.5, '1/s', 'acceleration asked for per speed error')
     speed_integral: float = gain(
         0.1, '1/s^2', 'growth of the acceleration per speed error: carries the drag'
     )
-    max_pitch: float = gain(0.35, 'rad', 'largest pitch asked for')
+    max_pitch: float = gain(0.35, 'rad', 'largest pitch asked for', acute=True)
     max_climb: float = gain(0.25, 'm/s', 'largest vertical speed asked for')
     max_trim: float = gain(0.6, 'm/s', 'largest vertical speed of the trim')
     max_rate: float = gain(
@@ -43,19 +43,11 @@ class TorpedoGains(Gains):
     )
     min_speed: float = gain(
         0.7, 'm/s', 'speed below which the fins are taken to be no weaker, so that they do not go '
-        'to their limits at rest'
+        'to their limits at rest', positive=True
     )  # fmt: skip
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.max_pitch >= math.pi / 2:
-            raise ConfigError(f"gain 'max_pitch': {self.max_pitch}; must be below pi/2 rad")
-        for name in ('fin_authority', 'min_speed'):
-            if getattr(self, name) == 0:
-                raise ConfigError(f"gain '{name}': 0.0; must be above 0")
 
-
-class TorpedoController:
+class TorpedoController(ControlLaw):
     """
     Holds depth, heading and surge speed by planes, rudder and propeller.
 
@@ -98,17 +90,12 @@ class TorpedoController:
         self.max_deflection = max_deflection
         self.gains = gains = gains or TorpedoGains()
         self._low, self._high = (float(limit) for limit in plant.thrust_limits[0])
-        self._clock = StampClock()
         self._trim = Integral(gains.trim, gains.max_trim, 1)
         most = max_deflection * gains.fin_authority * 4.0  # [rad/s^2] what fins give at 2 m/s
         self._planes = Integral(gains.rate_integral, most, 1)
         self._rudder = Integral(gains.rate_integral, most, 1)
         self._drag = Integral(gains.speed_integral, self._high / plant.mass, 1)
-
-    @property
-    def restarted(self) -> bool:
-        """True when the last step saw time go back, or was the first."""
-        return self._clock.restarted
+        super().__init__(self._trim, self._planes, self._rudder, self._drag)
 
     def step(
         self,
@@ -145,11 +132,7 @@ class TorpedoController:
         nose down [rad].
 
         """
-        dt = self._clock.advance(time)
-        for integral in (self._trim, self._planes, self._rudder, self._drag):
-            if self._clock.restarted:
-                integral.restart()
-            integral.advance(dt)
+        self._advance(time)
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         u = max(abs(velocity_b[0]), self.gains.min_speed)
         climb = rot.to_world(r_wb, velocity_b)[2]
@@ -162,21 +145,21 @@ class TorpedoController:
     def _pitch(self, rise: float, climb: float, u: float) -> float:
         """Return the pitch [rad], nose up, that leads to a height ``rise`` [m] above."""
         gains = self.gains
-        wanted = _within(gains.depth * rise, gains.max_climb)
+        wanted = within(gains.depth * rise, gains.max_climb)
         sine = (wanted + self._trim.value[0]) / u
         bound = math.sin(gains.max_pitch)
-        _keep(self._trim, wanted - climb, abs(sine) < bound)
-        return math.asin(_within(sine, bound))
+        self._trim.keep(wanted - climb, limited=abs(sine) >= bound)
+        return math.asin(within(sine, bound))
 
     def _rates(self, r_wb: rot.Rotation, pitch: float, heading: float) -> tuple[float, float]:
         """Return the rates about the body's y and z axes [rad/s] towards pitch and heading."""
         gains = self.gains
-        up = math.asin(_within(r_wb[6], 1.0))
+        up = rot.elevation_of(r_wb)
         # Fossen (2021), eq. 2.39; up is minus the turn about y in axes forward, left, up
-        of_pitch = -_within(gains.attitude * (pitch - up), gains.max_rate)
+        of_pitch = -within(gains.attitude * (pitch - up), gains.max_rate)
         of_heading = gains.attitude * rot.wrap(heading - rot.yaw_of(r_wb))
-        of_heading = _within(of_heading, gains.max_rate) * math.cos(up)
-        roll = math.atan2(r_wb[7], r_wb[8])
+        of_heading = within(of_heading, gains.max_rate) * math.cos(up)
+        roll = rot.roll_of(r_wb)
         c, s = math.cos(roll), math.sin(roll)
         return c * of_pitch + s * of_heading, c * of_heading - s * of_pitch
 
@@ -185,23 +168,11 @@ class TorpedoController:
         gains = self.gains
         wanted = gains.rate * error + integral.value[0]
         wanted /= gains.fin_authority * u * u
-        _keep(integral, error, abs(wanted) < self.max_deflection)
-        return _within(wanted, self.max_deflection)
+        integral.keep(error, limited=abs(wanted) >= self.max_deflection)
+        return within(wanted, self.max_deflection)
 
     def _thrust(self, error: float) -> float:
         """Return the thrust [N] that a speed error [m/s] asks for."""
         wanted = self.plant.mass * (self.gains.speed * error + self._drag.value[0])
-        _keep(self._drag, error, self._low < wanted < self._high)
-        return min(max(wanted, self._low), self._high)
-
-
-def _within(value: float, bound: float) -> float:
-    return min(max(value, -bound), bound)
-
-
-def _keep(integral: Integral, error: float, free: bool) -> None:
-    """Keep an error for the integrator unless what it feeds is at its limit."""
-    if free:
-        integral.keep((error,))
-    else:
-        integral.stand_still()
+        self._drag.keep(error, limited=not self._low < wanted < self._high)
+        return clamp(wanted, self._low, self._high)

@@ -8,8 +8,8 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
+from fluid_sim_ros.control.law import ControlLaw, within
 from fluid_sim_ros.control.plant import Plant
-from fluid_sim_ros.control.timing import StampClock
 from fluid_sim_ros.errors import ConfigError
 
 #: Attitude and depth before travel: a vehicle that rolls cannot point its thrust.
@@ -45,7 +45,7 @@ class UnderwaterGains(Gains):
     )
 
 
-class UnderwaterController:
+class UnderwaterController(ControlLaw):
     """
     Holds depth, heading and a level attitude, and a speed or a place.
 
@@ -72,14 +72,9 @@ class UnderwaterController:
                 f'thruster matrix: rank {self.allocator.rank}; this controller needs 6 '
                 '(thrusters for every direction)'
             )
-        self._clock = StampClock()
         self._integral = Integral(gains.integral, gains.max_integral)
         self._angular_integral = Integral(gains.attitude_integral, gains.max_angular_integral)
-
-    @property
-    def restarted(self) -> bool:
-        """True when the last step saw time go back, or was the first."""
-        return self._clock.restarted
+        super().__init__(self._integral, self._angular_integral)
 
     def step(
         self,
@@ -119,11 +114,7 @@ class UnderwaterController:
         Thrusts [N], one per thruster.
 
         """
-        dt = self._clock.advance(time)
-        for integral in (self._integral, self._angular_integral):
-            if self._clock.restarted:
-                integral.restart()
-            integral.advance(dt)
+        self._advance(time)
         r_wb = rot.from_quaternion(quat_wb_wxyz)
         error_w = self._speed_error(
             position_w, rot.to_world(r_wb, velocity_b), depth, heading, speed_h, place_w
@@ -131,11 +122,9 @@ class UnderwaterController:
         error_b = self._rate_error(r_wb, omega_b, heading)
         wrench_b = (*self._force(r_wb, error_w), *self._torque(error_b))
         thrusts = self.allocator.allocate(wrench_b)
-        for integral, error in ((self._integral, error_w), (self._angular_integral, error_b)):
-            if self.allocator.scale >= 1.0:
-                integral.keep(error)
-            else:
-                integral.stand_still()
+        limited = self.allocator.scale < 1.0
+        self._integral.keep(*error_w, limited=limited)
+        self._angular_integral.keep(*error_b, limited=limited)
         return thrusts
 
     def _speed_error(
@@ -159,8 +148,7 @@ class UnderwaterController:
         speed = math.hypot(vx, vy)
         if speed > gains.max_speed:
             vx, vy = vx * gains.max_speed / speed, vy * gains.max_speed / speed
-        vz = gains.position * (-depth - position_w[2])
-        vz = min(max(vz, -gains.max_climb), gains.max_climb)
+        vz = within(gains.position * (-depth - position_w[2]), gains.max_climb)
         return (vx - velocity_w[0], vy - velocity_w[1], vz - velocity_w[2])
 
     def _force(self, r_wb: rot.Rotation, error_w: rot.Vector3) -> rot.Vector3:
@@ -183,9 +171,9 @@ class UnderwaterController:
         gain, most = self.gains.attitude, self.gains.max_rate
         ex, ey, ez = rot.error(rot.from_yaw(heading), r_wb)
         return (
-            min(max(gain * ex, -most), most) - omega_b[0],
-            min(max(gain * ey, -most), most) - omega_b[1],
-            min(max(gain * ez, -most), most) - omega_b[2],
+            within(gain * ex, most) - omega_b[0],
+            within(gain * ey, most) - omega_b[1],
+            within(gain * ez, most) - omega_b[2],
         )
 
     def _torque(self, error_b: rot.Vector3) -> rot.Vector3:
