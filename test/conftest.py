@@ -9,6 +9,7 @@ from itertools import count
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 #: Domains that tests use; the demo picks from 61 to 100, so that neither hears the other.
 DOMAINS = range(1, 61)
@@ -16,6 +17,10 @@ _LOCKS = Path(tempfile.gettempdir()) / f'fluid_sim_ros_test_domains_{os.getuid()
 _turn = count()
 # MuJoCo chooses its renderer when it is imported; tests have no display
 os.environ.setdefault('MUJOCO_GL', 'egl')
+
+# the same examples in every run, at whatever pace; no files beside the tests
+settings.register_profile('fixed', derandomize=True, deadline=None, database=None)
+settings.load_profile('fixed')
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -25,7 +25,6 @@ def quad() -> Allocator:
     return Allocator(QUAD.thruster_matrix, QUAD.thrust_limits, MULTIROTOR)
 
 
-@settings(derandomize=True)
 @given(wrenches)
 def test_within_limits_the_wrench_is_exact_and_of_least_norm(wrench: np.ndarray) -> None:
     allocator, small = rov(), wrench / 50
@@ -35,7 +34,6 @@ def test_within_limits_the_wrench_is_exact_and_of_least_norm(wrench: np.ndarray)
     assert np.abs(thrusts - np.linalg.pinv(ROV.thruster_matrix) @ small).max() < 1e-9
 
 
-@settings(derandomize=True)
 @given(wrenches)
 def test_limits_hold_whatever_is_asked(wrench: np.ndarray) -> None:
     for allocator in (rov(), quad()):
@@ -45,7 +43,6 @@ def test_limits_hold_whatever_is_asked(wrench: np.ndarray) -> None:
         assert 0 <= allocator.scale <= 1
 
 
-@settings(derandomize=True)
 @given(wrenches)
 def test_each_axis_keeps_its_sign_and_never_exceeds_what_was_asked(wrench: np.ndarray) -> None:
     allocator = rov()

@@ -22,7 +22,6 @@ def test_speed_is_smooth_where_its_two_branches_meet() -> None:
     assert above - below == pytest.approx(2 * step * GAIN, rel=1e-3)
 
 
-@settings(derandomize=True)
 @given(st.floats(0.0, 50.0))
 def test_braking_from_the_speed_at_a_distance_takes_no_longer_than_the_distance(d: float) -> None:
     speed = approach().speed(d)
@@ -32,7 +31,7 @@ def test_braking_from_the_speed_at_a_distance_takes_no_longer_than_the_distance(
     assert speed * slope <= ACCELERATION * (1 + 1e-3)
 
 
-@settings(derandomize=True, max_examples=20)
+@settings(max_examples=20)
 @given(st.floats(-20, 20), st.floats(-20, 20), st.floats(-3, 3), st.floats(-3, 3))
 def test_following_the_reference_arrives_and_keeps_the_acceleration(
     dx: float, dy: float, vx: float, vy: float

@@ -1,7 +1,7 @@
 """Rotations as nine floats, against the quaternion and matrix functions of SciPy."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -21,13 +21,11 @@ def scipy_of(quat: tuple[float, ...]) -> Rotation:
     return Rotation.from_quat(quat, scalar_first=True)
 
 
-@settings(derandomize=True)
 @given(quaternions)
 def test_from_quaternion_is_the_rotation_matrix(quat: tuple[float, ...]) -> None:
     assert np.abs(matrix(rot.from_quaternion(quat)) - scipy_of(quat).as_matrix()).max() < 1e-14
 
 
-@settings(derandomize=True)
 @given(quaternions, vectors)
 def test_to_body_undoes_to_world(quat: tuple[float, ...], vector: rot.Vector3) -> None:
     r = rot.from_quaternion(quat)
@@ -35,7 +33,6 @@ def test_to_body_undoes_to_world(quat: tuple[float, ...], vector: rot.Vector3) -
     assert np.abs(rot.to_world(r, vector) - scipy_of(quat).apply(vector)).max() < 1e-14
 
 
-@settings(derandomize=True)
 @given(quaternions, quaternions)
 def test_error_is_the_logarithm(desired: tuple[float, ...], actual: tuple[float, ...]) -> None:
     found = np.array(rot.error(rot.from_quaternion(desired), rot.from_quaternion(actual)))
@@ -56,7 +53,6 @@ def test_error_of_the_same_attitude_is_zero_and_of_a_half_turn_is_not() -> None:
         assert abs(abs(found @ axis) - np.pi) < 1e-12
 
 
-@settings(derandomize=True)
 @given(vectors, angles)
 def test_thrust_axis_attitude_has_that_axis_and_heading(axis: rot.Vector3, yaw: float) -> None:
     up = np.array([axis[0], axis[1], 0.2 + abs(axis[2])])
@@ -69,7 +65,6 @@ def test_thrust_axis_attitude_has_that_axis_and_heading(axis: rot.Vector3, yaw: 
     assert r[:, 0] @ heading > 0
 
 
-@settings(derandomize=True)
 @given(angles)
 def test_yaw_round_trip(yaw: float) -> None:
     assert abs(rot.wrap(rot.yaw_of(rot.from_yaw(yaw)) - yaw)) < 1e-14

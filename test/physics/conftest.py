@@ -3,15 +3,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import settings
 
 # The shared helpers lie beside the tests, which are no package.
 sys.path.insert(0, str(Path(__file__).parent))
-
-
-# The same examples in every run; no files beside the tests.
-settings.register_profile('fixed', derandomize=True, deadline=None, database=None)
-settings.load_profile('fixed')
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import struct
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message, serialize_message
@@ -33,7 +33,6 @@ def odometry(frame: str, child: str, values: list[float], stamp_ns: int = 0) -> 
     return message
 
 
-@settings(derandomize=True)
 @given(st.text('abc/_', max_size=20), st.text('abc/_', max_size=20), numbers,
        st.integers(0, 2**31 * 1_000_000_000 - 1))  # fmt: skip
 def test_reads_what_was_serialised(

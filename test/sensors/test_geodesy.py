@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fluid_sim_ros.scene_schema import Home
@@ -49,7 +49,6 @@ def test_the_published_topocentric_example():
     assert height == pytest.approx(HEIGHT, abs=2e-3)
 
 
-@settings(deadline=None)
 @given(
     st.floats(-math.pi / 2, math.pi / 2),
     st.floats(-math.pi + 1e-9, math.pi - 1e-9),
