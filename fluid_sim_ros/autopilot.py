@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, Literal, Protocol
 
-from fluid_sim_ros.errors import MissingExtraError
+from fluid_sim_ros.extras import needed_for
 from fluid_sim_ros.messages.templates import joint_command, multi_array
 from fluid_sim_ros.pacing import Pacing, Source
 from fluid_sim_ros.simulation import Simulation
@@ -198,13 +198,6 @@ def open_bridge(
         If the mapping does not fit the vehicle, or the port is in use.
 
     """
-    try:
+    with needed_for('an autopilot'):
         bridge: Bridge = import_module(_PART).open_bridge(simulation, options, surroundings)
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith('fluid_sim_ros'):
-            raise
-        raise MissingExtraError(
-            f'an autopilot needs {error.name}, which is not installed; '
-            'fluid_sim doctor says what to type'
-        ) from None
     return bridge

@@ -21,7 +21,9 @@ from fluid_sim_ros import (
     cli_sweep,
     cli_vehicle,
 )
-from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, MissingExtraError
+from fluid_sim_ros.cli_shared import Show, add_command
+from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
+from fluid_sim_ros.extras import needed_for
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -73,9 +75,8 @@ def _build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('--version', action='version', version=f'fluid_sim_ros {__version__}')
     commands = parser.add_subparsers(dest='command', required=True, metavar='COMMAND')
-    json_help = 'also write the result as JSON; - is standard output'
 
-    run = commands.add_parser('run', help='run a scene without ROS')
+    run = add_command(commands, 'run', 'run a scene without ROS', _run, _show)
     run.add_argument('scene', metavar='SCENE', help='name (fluid_sim scenes) or MJCF or YAML file')
     run.add_argument('--duration', type=float, metavar='S', help='simulated time [s]')
     run.add_argument('--timestep', type=float, metavar='S', help="replaces the model's [s]")
@@ -93,32 +94,26 @@ def _build_parser() -> argparse.ArgumentParser:
         '--record-topics', metavar='PATTERN', nargs='+', default=['*'],
         help='shell patterns of the topics to record (default all)',
     )  # fmt: skip
-    run.add_argument('--json', metavar='PATH', help=json_help)
     cli_autopilot.add_options(run)
-    run.set_defaults(function=_run)
 
-    scenes = commands.add_parser('scenes', help='list the scenes')
-    scenes.add_argument('--json', metavar='PATH', help=json_help)
-    scenes.set_defaults(function=_scenes)
-
-    cli_vehicle.add_parser(commands, _show, json_help)
-    cli_logs.add_parsers(commands, _show, json_help)
-    cli_lab.add_parsers(commands, _show, json_help)
-    cli_sweep.add_parser(commands, _show, json_help)
+    add_command(commands, 'scenes', 'list the scenes', _scenes, _show)
+    cli_vehicle.add_parser(commands, _show)
+    cli_logs.add_parsers(commands, _show)
+    cli_lab.add_parsers(commands, _show)
+    cli_sweep.add_parser(commands, _show)
 
     commands.add_parser(
         'demo', add_help=False, help='quadrotor in a gust: simulator and controller over ROS 2'
     )
 
-    doctor = commands.add_parser('doctor', help='what is installed, what is missing, what to type')
+    text = 'what is installed, what is missing, what to type'
+    doctor = add_command(commands, 'doctor', text, _doctor, _show)
     doctor.add_argument('scene', nargs='?', help='a scene to look at, instead of the machine')
-    doctor.add_argument('--json', metavar='PATH', help=json_help)
     cli_autopilot.add_doctor_options(doctor)
-    doctor.set_defaults(function=_doctor)
     return parser
 
 
-def _run(arguments: argparse.Namespace) -> int:
+def _run(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.headless import run_scene, summary_table
 
     result = run_scene(
@@ -135,13 +130,13 @@ def _run(arguments: argparse.Namespace) -> int:
         record_topics=arguments.record_topics,
         autopilot=cli_autopilot.chosen_run(arguments),
     )
-    _show(arguments.json, summary_table(result), result)
+    show(arguments.json, summary_table(result), result)
     if arguments.record and arguments.json != '-':
         _console().print(f'Log: {result["record"]}', soft_wrap=True)
     return 0
 
 
-def _scenes(arguments: argparse.Namespace) -> int:
+def _scenes(arguments: argparse.Namespace, show: Show) -> int:
     from rich.markup import escape
     from rich.table import Table
 
@@ -153,31 +148,26 @@ def _scenes(arguments: argparse.Namespace) -> int:
         scene = Scene.load(name)
         rows.append({'name': name, 'medium': scene.medium, 'description': scene.description})
         table.add_row(name, scene.medium or '', escape(scene.description))
-    _show(arguments.json, table, rows)
+    show(arguments.json, table, rows)
     return 0
 
 
 def _demo(rest: Sequence[str]) -> int:
-    try:
+    with needed_for('the demo'):
         from fluid_sim_ros.demo.main import main as demo
-    except ModuleNotFoundError as error:
-        raise MissingExtraError(
-            f'the demo needs {error.name}, which is not installed; '
-            'fluid_sim doctor says what to type'
-        ) from None
     return demo(rest)
 
 
-def _doctor(arguments: argparse.Namespace) -> int:
+def _doctor(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros import doctor
     from fluid_sim_ros.cli_scene import examine_scene
 
     if arguments.autopilot:
         table, seen = cli_autopilot.look(arguments)
-        _show(arguments.json, table, seen)
+        show(arguments.json, table, seen)
         return 0
     rows = doctor.examine() if arguments.scene is None else examine_scene(arguments.scene)
-    _show(arguments.json, doctor.table(rows), [row.as_dict() for row in rows])
+    show(arguments.json, doctor.table(rows), [row.as_dict() for row in rows])
     return 0 if doctor.works(rows) else 1
 
 

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.cli_shared import Show, needing_extra
+from fluid_sim_ros.cli_shared import Show, add_command, progress_bar
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -18,14 +18,11 @@ NOTHING_FITS = 1
 _QUICK = (0.02, 0.01, 0.005, 0.002)
 
 
-def add_parsers(commands: Any, show: Show, json_help: str) -> None:
+def add_parsers(commands: Any, show: Show) -> None:
     """Add the subcommands to the parser of ``fluid_sim``."""
 
     def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
-        parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=text)
-        parser.add_argument('--json', metavar='PATH', help=json_help)
-        parser.set_defaults(function=lambda arguments: needing_extra(function, arguments, show))
-        return parser
+        return add_command(commands, name, text, function, show)
 
     chart = add('chart', 'chart speed against accuracy of a problem or scene', _chart)
     chart.add_argument(
@@ -90,14 +87,7 @@ def _add_advise(advise: argparse.ArgumentParser) -> None:
 @contextmanager
 def progress() -> Iterator['Report']:
     """Give a function that shows how far a measurement is, on standard error."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    bar = Progress(
-        TextColumn('{task.description}'), BarColumn(), TextColumn('{task.completed}/{task.total}'),
-        TimeRemainingColumn(), console=Console(stderr=True), transient=True,
-    )  # fmt: skip
-    with bar:
+    with progress_bar('{task.completed}/{task.total}') as bar:
         tasks: dict[str, Any] = {}
 
         def report(what: str, done: int, total: int) -> None:

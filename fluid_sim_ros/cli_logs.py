@@ -7,20 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros import cli_replay
-from fluid_sim_ros.cli_shared import Show, needing_extra
+from fluid_sim_ros.cli_shared import Show, add_command, progress_bar
 from fluid_sim_ros.errors import ConfigError
 
 DAMAGED = 1
 
 
-def add_parsers(commands: Any, show: Show, json_help: str) -> None:
+def add_parsers(commands: Any, show: Show) -> None:
     """Add the subcommands to the parser of ``fluid_sim``."""
 
     def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
-        parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=text)
+        parser = add_command(commands, name, text, function, show)
         parser.add_argument('log', metavar='LOG', help='.mcap file, or the folder of one')
-        parser.add_argument('--json', metavar='PATH', help=json_help)
-        parser.set_defaults(function=lambda arguments: needing_extra(function, arguments, show))
         return parser
 
     add('info', 'what is in a log, and whether it is sound', _info)
@@ -129,9 +127,7 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
 def _render(arguments: argparse.Namespace, show: Show) -> int:
     # before MuJoCo is imported: no display is needed
     os.environ.setdefault('MUJOCO_GL', 'egl')
-    from rich.console import Console
     from rich.markup import escape
-    from rich.progress import Progress
 
     from fluid_sim_ros.recording.reader import open_log
     from fluid_sim_ros.recording.render import FilmOptions, render
@@ -144,7 +140,7 @@ def _render(arguments: argparse.Namespace, show: Show) -> int:
         width, height, arguments.fps, arguments.speed, arguments.vehicle, arguments.camera,
         arguments.at,
     )  # fmt: skip
-    with Progress(console=Console(stderr=True), transient=True) as progress:
+    with progress_bar('{task.percentage:.0f} %') as progress:
         task = progress.add_task('rendering', total=1.0)
         count = render(log, out, options, lambda done: progress.update(task, completed=done))
     result = {'log': str(log.path), 'file': str(out), 'pictures': count, 'faults': log.faults}

@@ -4,15 +4,15 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.cli_shared import Show, needing_extra
+from fluid_sim_ros.cli_shared import Show, add_command, progress_bar
 
 FAILED = 1
 
 
-def add_parser(commands: Any, show: Show, json_help: str) -> None:
+def add_parser(commands: Any, show: Show) -> None:
     """Add the subcommand to the parser of ``fluid_sim``."""
     text = 'run a scene many times with different numbers, into a Parquet table'
-    parser: argparse.ArgumentParser = commands.add_parser('sweep', help=text, description=text)
+    parser = add_command(commands, 'sweep', text, _sweep, show)
     parser.add_argument('file', metavar='FILE', type=Path, help='YAML file of the sweep')
     parser.add_argument(
         '--out', metavar='FOLDER', type=Path,
@@ -23,27 +23,15 @@ def add_parser(commands: Any, show: Show, json_help: str) -> None:
         '--ray', metavar='ADDRESS',
         help='run on a Ray cluster; local: as processes of this machine',
     )  # fmt: skip
-    parser.add_argument('--json', metavar='PATH', help=json_help)
-    parser.set_defaults(function=lambda arguments: needing_extra(_sweep, arguments, show))
 
 
 def _sweep(arguments: argparse.Namespace, show: Show) -> int:
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-
     from fluid_sim_ros.lab.sweep.conduct import conduct
     from fluid_sim_ros.lab.sweep.sweep_file import read_sweep
 
     sweep = read_sweep(arguments.file)
     out = arguments.out or Path('out/sweep') / arguments.file.stem
-    columns = (TextColumn('runs'), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    with progress_bar('{task.completed}/{task.total}') as progress:
         task = progress.add_task('runs', total=None)
         result = conduct(
             sweep, out, workers=arguments.workers, ray_address=arguments.ray,

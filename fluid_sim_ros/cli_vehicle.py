@@ -4,13 +4,13 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.cli_shared import Show
+from fluid_sim_ros.cli_shared import Show, add_command
 
 
-def add_parser(commands: Any, show: Show, json_help: str) -> None:
+def add_parser(commands: Any, show: Show) -> None:
     """Add ``new-vehicle`` to the parser of ``fluid_sim``."""
     text = 'write model, vehicle file and scene of a vehicle from its mass, size and thrusters'
-    new: argparse.ArgumentParser = commands.add_parser('new-vehicle', help=text, description=text)
+    new = add_command(commands, 'new-vehicle', text, _new_vehicle, show)
     new.add_argument('name', metavar='NAME', help='letters, digits and _, a letter first')
     new.add_argument('--medium', choices=('air', 'water'), required=True)
     new.add_argument('--mass', type=float, required=True, metavar='KG')
@@ -32,8 +32,6 @@ def add_parser(commands: Any, show: Show, json_help: str) -> None:
     )  # fmt: skip
     new.add_argument('--out', type=Path, metavar='FOLDER', help='default: NAME')
     new.add_argument('--force', action='store_true', help='replace files that exist')
-    new.add_argument('--json', metavar='PATH', help=json_help)
-    new.set_defaults(function=lambda arguments: _new_vehicle(arguments, show))
 
 
 def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import Progress
 from rich.table import Table
 
 from fluid_sim_ros.cli_flight import AutopilotRun, Flight
-from fluid_sim_ros.errors import ConfigError, MissingExtraError
+from fluid_sim_ros.cli_shared import progress_bar
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.extras import needed_for
 from fluid_sim_ros.grid_watch import GridWatch
 from fluid_sim_ros.pacing import Pacing, RealTime
 from fluid_sim_ros.plugins import native as nat
@@ -129,7 +130,7 @@ def run_scene(
     pacing = Pacing()
     if realtime:
         pacing = RealTime(tick=max(1, round(_SAMPLE_PERIOD / simulation.timestep)))
-    with _progress_bar() as progress:
+    with progress_bar('{task.completed:.1f} s') as progress:
         progress.add_task(simulation.scene.name, total=seconds)
         watcher = Watcher(simulation, progress)
         sinks: list[Sink] = [watcher]
@@ -159,13 +160,8 @@ def _recording(
     if path is None:
         yield {}, None
         return
-    try:
+    with needed_for('--record'):
         from fluid_sim_ros.recording.sink import RecordingSink
-    except ModuleNotFoundError as error:
-        raise MissingExtraError(
-            f'--record needs {error.name}, which is not installed; '
-            'fluid_sim doctor says what to type'
-        ) from None
     settings = {'fluid': fluid or ''}
     sink = RecordingSink(simulation, Path(path), settings, topics)
     sinks.append(sink)
@@ -196,15 +192,6 @@ def summary_table(result: dict[str, Any]) -> Table:
             f'{force:.4g} N at {at:.2f} s',
         )
     return table
-
-
-def _progress_bar() -> Progress:
-    # On standard error, so that standard output holds the result only.
-    return Progress(
-        TextColumn('{task.description}'), BarColumn(),
-        TextColumn('{task.completed:.1f} s'), TimeRemainingColumn(),
-        console=Console(stderr=True), transient=True,
-    )  # fmt: skip
 
 
 def _summary(simulation: Simulation, watcher: Watcher, wall: float) -> dict[str, Any]:

@@ -13,7 +13,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
 
-from fluid_sim_ros.errors import ConfigError, MissingExtraError, listed
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.extras import needed_for
 from fluid_sim_ros.simulation import Simulation
 
 #: The part that records; it has ``open_recorder`` with the arguments of the function below.
@@ -119,15 +120,8 @@ def open_recorder(
         If the file cannot be made.
 
     """
-    try:
+    with needed_for('recording'):
         part = import_module(_PART)
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith('fluid_sim_ros'):
-            raise
-        raise MissingExtraError(
-            f'recording needs {error.name}, which is not installed; '
-            'fluid_sim doctor says what to type'
-        ) from None
     tap: Tap = part.open_recorder(simulation, topics, options)
     return tap
 
