@@ -1,7 +1,9 @@
 #include "config.h"
 
+#include <locale.h>
+
 #include <cmath>
-#include <locale>
+#include <cstdlib>
 #include <sstream>
 
 namespace fluid_sim {
@@ -14,10 +16,12 @@ std::vector<std::string> Split(const std::string& text) {
 }
 
 bool ParseNumber(const std::string& word, mjtNum* out) {
-  std::istringstream stream(word);
-  stream.imbue(std::locale::classic());
-  stream >> *out;
-  return !stream.fail() && stream.eof() && std::isfinite(*out);
+  // a stream for each number would take seconds for a long time series
+  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
+  if (word.empty() || word.find_first_of("xX") != std::string::npos) return false;  // hexadecimal
+  char* end = nullptr;
+  *out = strtod_l(word.c_str(), &end, classic);
+  return end == word.c_str() + word.size() && std::isfinite(*out);
 }
 
 std::string BodyTitle(const mjModel* m, int body) {
