@@ -8,7 +8,7 @@ from rclpy.context import Context
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
-from fluid_sim_ros.ros.inputs import PolledGroup
+from fluid_sim_ros.ros.polled_group import PolledGroup
 
 #: Messages that the middleware keeps between two calls of ``take``.
 _DEPTH = 5000

@@ -28,8 +28,8 @@ from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.ros import controller_parameters as parameters
-from fluid_sim_ros.ros.inputs import PolledGroup
 from fluid_sim_ros.ros.parameter_table import Table, declare, judge
+from fluid_sim_ros.ros.polled_group import PolledGroup
 from fluid_sim_ros.ros.state_source import StateSource
 from fluid_sim_ros.ros.states import State
 from fluid_sim_ros.vehicle_plant import plant_of

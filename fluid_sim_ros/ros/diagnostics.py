@@ -170,8 +170,8 @@ class Diagnostics:
                 values[f'{entry.topic} last error'] = entry.last_error
         values['saturated values'] = inputs.saturated
         values['ignored answers'] = inputs.ignored_answers
-        stale = [name for name, freshness in inputs.freshness.items() if freshness.stale]
-        values['times stale'] = sum(f.times_stale for f in inputs.freshness.values())
+        stale = [name for name, freshness in inputs.stale.freshness.items() if freshness.stale]
+        values['times stale'] = sum(f.times_stale for f in inputs.stale.freshness.values())
         if stale:
             return self._status('commands', _WARN, f'stale: {", ".join(stale)}', **values)
         rejected = sum(entry.rejected for entry in inputs.inputs)

@@ -5,9 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from geometry_msgs.msg import TwistStamped, WrenchStamped
-from rclpy.callback_groups import CallbackGroup
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -26,6 +24,8 @@ from fluid_sim_ros.messages.commands import (
     Effect,
 )
 from fluid_sim_ros.recorder_tap import Tap
+from fluid_sim_ros.ros.polled_group import PolledGroup
+from fluid_sim_ros.ros.stale_commands import StaleCommands
 from fluid_sim_ros.simulation import Simulation
 
 _MESSAGES: dict[str, type] = {
@@ -37,21 +37,6 @@ _MESSAGES: dict[str, type] = {
 _COUNTED = ('/cmd/thrust', '/cmd/joints')
 #: Wall time between two looks at which topics have publishers [s].
 REFRESH_PERIOD = 0.1
-
-
-class PolledGroup(CallbackGroup):
-    """Keeps the executor away from subscriptions that the stepping thread takes from itself."""
-
-    def can_execute(self, entity: Any) -> bool:
-        """Return False: the executor never takes these."""
-        return False
-
-    def beginning_execution(self, entity: Any) -> bool:
-        """Return False, as ``can_execute``."""
-        return False
-
-    def ending_execution(self, entity: Any) -> None:
-        """Do nothing: no execution ever began."""
 
 
 @dataclass
@@ -70,15 +55,6 @@ class Input:
     last_error: str = ''
 
 
-@dataclass
-class Freshness:
-    """When a vehicle was last commanded, on the clock that ``command_timeout`` refers to."""
-
-    commanded_at: float | None = None
-    stale: bool = False
-    times_stale: int = 0
-
-
 class Inputs:
     """
     Every command topic of a node, as a source for the runner.
@@ -95,14 +71,13 @@ class Inputs:
         report: Callable[[str, str], None],
     ) -> None:
         self._node = node
-        self._settings = settings
         self._report = report
         self._by_count = settings['lockstep.match'] == 'count'
         self._group = PolledGroup()
         self.tap: Tap | None = None
         self.saturated = 0
         self.ignored_answers = 0
-        self.freshness = {name: Freshness() for name in simulation.vehicles}
+        self.stale = StaleCommands(simulation, settings, report)
         self.inputs: list[Input] = []
         for topic in Commands(simulation, settings).topics:
             self._add(topic)
@@ -174,16 +149,9 @@ class Inputs:
 
     def poll(self, simulation: Simulation) -> None:
         """Apply what has arrived; topics without a publisher are looked at ten times a second."""
-        now = time.monotonic()
-        if now - self._refreshed_at > REFRESH_PERIOD:
-            self._refreshed_at = now
-            self._refresh()
-            for entry in self.inputs:
-                self._drain(simulation, entry)
-        else:
-            for entry in self._active:
-                self._drain(simulation, entry)
-        self._expire(simulation, now)
+        for entry in self.inputs if self._refresh_when_due() else self._active:
+            self._drain(simulation, entry)
+        self._expire()
 
     def wait(self, simulation: Simulation, timeout: float) -> bool:
         """Block until every awaited topic has answered this step; False on timeout or a wake."""
@@ -198,7 +166,7 @@ class Inputs:
         while True:
             self._missing = [e for e in self._missing if not self._answered(simulation, e)]
             if not self._missing:
-                self._expire(simulation, time.monotonic())
+                self._expire()
                 return True
             left = deadline - time.monotonic()
             if left <= 0 or self._block(left):
@@ -210,10 +178,7 @@ class Inputs:
 
     def poll_unawaited(self, simulation: Simulation) -> None:
         """Apply what has arrived on topics that the lockstep does not wait for."""
-        now = time.monotonic()
-        if now - self._refreshed_at > REFRESH_PERIOD:
-            self._refreshed_at = now
-            self._refresh()
+        self._refresh_when_due()
         for entry in self._active:
             if not entry.required:
                 self._drain(simulation, entry)
@@ -221,6 +186,14 @@ class Inputs:
     def awaited(self) -> list[str]:
         """Return the topics whose answer is missing now."""
         return [entry.topic for entry in self._missing]
+
+    def _refresh_when_due(self) -> bool:
+        now = time.monotonic()
+        if now - self._refreshed_at <= REFRESH_PERIOD:
+            return False
+        self._refreshed_at = now
+        self._refresh()
+        return True
 
     def _refresh(self) -> None:
         self._active = [e for e in self.inputs if e.subscription.get_publisher_count()]
@@ -280,36 +253,14 @@ class Inputs:
             self.saturated += 1
             self._report(f'{vehicle} allocated', effect.shortfall)
         if vehicle:
-            freshness = self.freshness[vehicle]
-            freshness.commanded_at = self._command_clock(simulation, time.monotonic())
-            freshness.stale = False
+            self.stale.commanded(vehicle)
 
-    # ---- stale commands --------------------------------------------------------------------
-
-    def _command_clock(self, simulation: Simulation, now: float) -> float:
-        return now if self._settings['pacing'] == 'free' else simulation.time
-
-    def _expire(self, simulation: Simulation, now: float) -> None:
-        limit = self._settings['command_timeout']
-        if not limit:
-            return
-        now = self._command_clock(simulation, now)
-        for name, freshness in self.freshness.items():
-            at = freshness.commanded_at
-            if at is not None and not freshness.stale and now - at > limit:
-                freshness.stale = True
-                freshness.times_stale += 1
-                simulation.set_thrust(name, np.zeros(len(simulation.vehicles[name].thrusters)))
-                if self.tap is not None:
-                    self.tap.event(stale=name)
-                self._report(
-                    f'{name} stale',
-                    f"thrust of '{name}': no command for {limit:g} s, thrust set to zero",
-                )
+    def _expire(self) -> None:
+        for vehicle in self.stale.expire():
+            if self.tap is not None:
+                self.tap.event(stale=vehicle)
 
     def forget(self) -> None:
         """Start anew after a reset: nothing is stale before the first command."""
-        for freshness in self.freshness.values():
-            freshness.commanded_at = None
-            freshness.stale = False
+        self.stale.forget()
         self._missing_step = -1

@@ -4,7 +4,8 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 import rclpy
@@ -15,14 +16,18 @@ from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.ros.preflight import check_domain, check_parameter_files
 
 
-class LoopingNode(Protocol):
+class Ending(Protocol):
+    """What a signal ends."""
+
+    def end(self) -> None:
+        """Have the loop return; safe in a signal handler."""
+
+
+class LoopingNode(Ending, Protocol):
     """An rclpy node whose main thread runs a loop of its own."""
 
     def run(self) -> None:
         """Run the loop until ``end``."""
-
-    def end(self) -> None:
-        """Have ``run`` return; safe in a signal handler."""
 
     def close(self) -> None:
         """Refuse further work; called after ``run``, before the executor stops."""
@@ -79,6 +84,18 @@ def run_process(
 
 def _spin(node: Any, start: Callable[[Any], None]) -> None:
     """Run node and executor; in the end stop both in an order that leaves no thread behind."""
+    end_on_signal(node)
+    start(node)
+    with executor_thread(node):
+        try:
+            node.run()
+        finally:
+            node.close()
+
+
+@contextmanager
+def executor_thread(node: Any) -> Iterator[None]:
+    """Serve a node's services and parameters in a thread of its own, which ends with the block."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
 
@@ -88,19 +105,17 @@ def _spin(node: Any, start: Callable[[Any], None]) -> None:
         except ExternalShutdownException:
             return
 
-    _end_on_signal(node)
-    start(node)
     thread = threading.Thread(target=spin, name='executor')
     thread.start()
     try:
-        node.run()
+        yield
     finally:
-        node.close()
         executor.shutdown()
         thread.join()
 
 
-def _end_on_signal(node: LoopingNode) -> None:
+def end_on_signal(node: Ending) -> None:
+    """End a loop at SIGINT or SIGTERM; a second signal ends the process at once."""
     ending = False
 
     def on_signal(number: int, frame: Any) -> None:

@@ -7,7 +7,6 @@ next simulated time. Only the calling thread publishes; the services set flags f
 
 import importlib
 import importlib.util
-import signal
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -16,7 +15,6 @@ from typing import Any
 
 import rclpy
 from rclpy.duration import Duration
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
@@ -26,6 +24,7 @@ from std_srvs.srv import SetBool, Trigger
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.recorder_tap import RecordedTopic
+from fluid_sim_ros.ros.process import end_on_signal, executor_thread
 
 NODE_NAME = 'fluid_sim_replay'
 _CLOCK = '/clock'
@@ -129,8 +128,12 @@ class ReplayNode(Node):
 
     # ---- publishing (the caller's thread) --------------------------------------------------
 
+    def end(self) -> None:
+        """Have ``play`` return; safe in a signal handler."""
+        self.ending = True
+
     def play(self, messages: Callable[[], Messages]) -> None:
-        """Publish all messages, again and again with ``loop``, until ``ending`` is set."""
+        """Publish all messages, again and again with ``loop``, until ``end``."""
         self._await_subscribers()
         while not self.ending:
             self._play_once(iter(messages()))
@@ -201,30 +204,18 @@ class ReplayNode(Node):
 def replay(
     topics: Sequence[RecordedTopic], messages: Callable[[], Messages], options: ReplayOptions
 ) -> int:
-    """Publish until the end, or until SIGINT or SIGTERM; return how many were published."""
+    """
+    Publish until the end, or until SIGINT or SIGTERM; return how many were published.
+
+    A second signal ends the process at once.
+    """
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = ReplayNode(topics, options)
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-
-    def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
-
-    def end(number: int, frame: Any) -> None:
-        node.ending = True
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, end)
-    thread = threading.Thread(target=spin, name='executor')
-    thread.start()
+    end_on_signal(node)
     try:
-        node.play(messages)
+        with executor_thread(node):
+            node.play(messages)
     finally:
-        executor.shutdown()
-        thread.join()
         node.destroy_node()
         rclpy.shutdown()
     return node.published

@@ -11,7 +11,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import read_stamped_pair
-from fluid_sim_ros.ros.inputs import PolledGroup
+from fluid_sim_ros.ros.polled_group import PolledGroup
 from fluid_sim_ros.ros.states import State, read_odometry
 
 _QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
