@@ -12,10 +12,10 @@ from fluid_sim_ros.fluid_rungs import compile_spec, force_fluid
 from fluid_sim_ros.gaits import Gaits
 from fluid_sim_ros.mass_factors import scale_masses
 from fluid_sim_ros.plugins import load_plugins
-from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene_schema import Gait, Home, SceneFile, ScheduledEvent, VehicleFile
 from fluid_sim_ros.schema import parse, read_yaml
+from fluid_sim_ros.streams import streams_of
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve
 from fluid_sim_ros.wave_schema import Waves
 from fluid_sim_ros.weather import apply_weather
@@ -26,9 +26,6 @@ INTEGRATORS = {
     name.removeprefix('mjINT_').lower(): getattr(mujoco.mjtIntegrator, name)
     for name in mujoco.mjtIntegrator.__members__
 }
-#: Above this density the one medium of a scene without a stated one is water [kg/m^3]; it lies
-#: between the densest air (1.4 at -20 degC) and the lightest water (958 at 100 degC).
-_WATER_DENSITY = 100.0
 
 
 @dataclass(frozen=True)
@@ -160,10 +157,9 @@ class Scene:
             spec.option.timestep = timestep
         if integrator is not None:
             spec.option.integrator = _integrator(integrator)
-        # without a fluid wind and current still may be commanded, to no effect
-        dry = (
-            _streams(compile_spec(spec, self.model_path), self.medium) if fluid == 'none' else None
-        )
+        dry = None
+        if fluid == 'none':  # wind and current still may be commanded, to no effect
+            dry = streams_of(compile_spec(spec, self.model_path), self.medium)
         if fluid is not None:
             force_fluid(spec, fluid, self.model_path)
         if self.waves is not None and fluid in (None, 'no_added_mass'):  # others: no surface
@@ -175,7 +171,7 @@ class Scene:
         schedule = Schedule(self.schedule, model.opt.timestep)
         _check_schedule(self, vehicles)
         gaits = Gaits(self.gait, vehicles, model.opt.timestep)
-        streams = dry or _streams(model, self.medium)
+        streams = dry or streams_of(model, self.medium)
         self._check_weather(streams)
         return CompiledScene(model, vehicles, schedule, gaits, self._keyframe_id(model), streams)
 
@@ -286,19 +282,6 @@ def _integrator(name: str) -> mujoco.mjtIntegrator:
     if name.lower() not in INTEGRATORS:
         raise ConfigError(f"integrator '{name}' is not known; allowed: {listed(INTEGRATORS)}")
     return INTEGRATORS[name.lower()]
-
-
-def _streams(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:
-    """Return which of wind and current a model has: both where a free surface parts two fluids."""
-    density = model.opt.density
-    for instance in range(model.nplugin):
-        surface = native().plugin_config(model._address, instance, 'fluid_sim.medium', 'surface')
-        if surface not in ('', 'none'):
-            return ('wind', 'current')
-        stated = native().plugin_config(model._address, instance, 'fluid_sim.medium', 'density')
-        density = float(stated) if stated else density
-    water = medium == 'water' if medium else density > _WATER_DENSITY
-    return ('current',) if water else ('wind',)
 
 
 def _check_schedule(scene: Scene, vehicles: dict[str, Vehicle]) -> None:

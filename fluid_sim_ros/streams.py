@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +13,9 @@ from fluid_sim_ros.weather import MEDIUM, OPTION
 
 Array = NDArray[np.float64]
 STREAMS = ('wind', 'current')
+#: Above this density the one medium of a scene without a stated one is water [kg/m^3]; it lies
+#: between the densest air (1.4 at -20 degC) and the lightest water (958 at 100 degC).
+_WATER_DENSITY = 100.0
 
 
 @dataclass(frozen=True)
@@ -21,6 +25,19 @@ class SavedStreams:
     wind_w: Array
     current_w: Array
     enabled: bool
+
+
+def streams_of(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:
+    """Return which of wind and current a model has: both where a free surface parts two fluids."""
+    density = model.opt.density
+    for instance in range(model.nplugin):
+        surface = native().plugin_config(model._address, instance, MEDIUM, 'surface')
+        if surface not in ('', 'none'):
+            return ('wind', 'current')
+        stated = native().plugin_config(model._address, instance, MEDIUM, 'density')
+        density = float(stated) if stated else density
+    water = medium == 'water' if medium else density > _WATER_DENSITY
+    return ('current',) if water else ('wind',)
 
 
 class Streams:
