@@ -7,10 +7,8 @@ repeated), 2 (wrong input).
 """
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fluid_sim_ros import (
@@ -21,8 +19,8 @@ from fluid_sim_ros import (
     cli_sweep,
     cli_vehicle,
 )
-from fluid_sim_ros.cli_shared import Show, add_command
-from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
+from fluid_sim_ros.cli_shared import Show, add_command, write_json
+from fluid_sim_ros.errors import DivergedError, FluidSimError
 from fluid_sim_ros.extras import needed_for
 
 if TYPE_CHECKING:
@@ -173,18 +171,10 @@ def _doctor(arguments: argparse.Namespace, show: Show) -> int:
 
 def _show(json_path: str | None, table: Any, result: object) -> None:
     """Print the table, and write the result as JSON where it was asked for."""
-    if json_path is None:
+    if json_path is not None:
+        write_json(json_path, result)
+    if json_path != '-':
         _console().print(table)
-        return
-    text = json.dumps(result, indent=2, allow_nan=False) + '\n'
-    if json_path == '-':
-        sys.stdout.write(text)
-        return
-    try:
-        Path(json_path).write_text(text, encoding='utf-8')
-    except OSError as error:
-        raise ConfigError(f'--json {json_path}: cannot be written ({error.strerror})') from None
-    _console().print(table)
 
 
 def _console() -> 'Console':

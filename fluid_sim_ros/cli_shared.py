@@ -1,9 +1,13 @@
 """What the subcommands of ``fluid_sim`` share."""
 
 import argparse
+import json
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.extras import needed_for
 
 if TYPE_CHECKING:
@@ -32,6 +36,26 @@ def add_command(
     parser.add_argument('--json', metavar='PATH', help=JSON_HELP)
     parser.set_defaults(function=run)
     return parser
+
+
+def write_json(path: str, result: object) -> None:
+    """
+    Write a result as JSON to a file, or with ``-`` to standard output.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be written.
+
+    """
+    text = json.dumps(result, indent=2, allow_nan=False) + '\n'
+    if path == '-':
+        sys.stdout.write(text)
+        return
+    try:
+        Path(path).write_text(text, encoding='utf-8')
+    except OSError as error:
+        raise ConfigError(f'{path}: cannot be written ({error.strerror})') from None
 
 
 def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':

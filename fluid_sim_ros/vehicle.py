@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.physics.atmosphere import GRAVITY
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.scene_schema import VehicleFile
 from fluid_sim_ros.schema import NAME_PATTERN
@@ -53,6 +54,11 @@ class Vehicle:
     joint_ids: NDArray[np.int64]
     joint_range: NDArray[np.float64]
     sensors: SensorsFile
+
+
+def weight_in_air(model: mujoco.MjModel, body_id: int) -> float:
+    """Return the weight of a body and all below it, without buoyancy [N]."""
+    return float(model.body_subtreemass[body_id]) * GRAVITY
 
 
 def free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:

@@ -1,14 +1,13 @@
 """The command ``fluid_sim demo``: fly, evaluate the log, print a table, write plots."""
 
 import argparse
-import json
 import math
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
 
+from fluid_sim_ros.cli_shared import write_json
 from fluid_sim_ros.demo import plots
 from fluid_sim_ros.demo.flight import fly
 from fluid_sim_ros.demo.flight_log import check_again, read_recording, still
@@ -45,8 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         plots.trajectory(recording, targets(recording), out / 'trajectory.png'),
         plots.wrench(recording, out / 'wrench.png'),
     ]
-    text = json.dumps(result, indent=2) + '\n'
-    (out / 'summary.json').write_text(text, encoding='utf-8')
+    write_json(str(out / 'summary.json'), result)
     console.print(table(result))
     for line in (
         f'Plots: {", ".join(map(str, pictures))}',
@@ -57,7 +55,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         f'Summary: {out / "summary.json"}; what the processes wrote: {out}/*.log',
     ):
         console.print(line, soft_wrap=True, markup=False)
-    _write_json(options.json, text)
+    if options.json:
+        write_json(options.json, result)
     return 0
 
 
@@ -75,10 +74,3 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('--json', metavar='PATH', help='also write the summary; - = stdout')
     return parser
-
-
-def _write_json(path: str | None, text: str) -> None:
-    if path == '-':
-        sys.stdout.write(text)
-    elif path:
-        Path(path).write_text(text, encoding='utf-8')

@@ -17,6 +17,7 @@ from fluid_sim_ros.recording.reader import Log
 from fluid_sim_ros.recording.tracks import Track, read_tracks
 from fluid_sim_ros.recording.water import add_waves
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.vehicle import weight_in_air
 
 Array = NDArray[np.float64]
 Picture = NDArray[np.uint8]
@@ -195,7 +196,7 @@ class _Stage:
 
     def _add_arrows(self, name: str, track: Track, time: float) -> None:
         body = self._simulation.vehicles[name].body_id
-        weight = float(self._model.body_subtreemass[body]) * 9.80665
+        weight = weight_in_air(self._model, body)
         scene = self._renderer.scene
         rotation = self._data.xmat[body].reshape(3, 3)
         start = self._data.xpos[body].copy()

@@ -12,7 +12,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.vehicle import Vehicle
+from fluid_sim_ros.vehicle import Vehicle, weight_in_air
 
 _LATCHED = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
@@ -45,8 +45,7 @@ class VehicleMarkers:
         self._row = row
         self._body = vehicle.body_id
         model = simulation.model
-        weight = float(model.body_subtreemass[vehicle.body_id]) * 9.80665
-        self._metres_per_newton = 1.0 / weight
+        self._metres_per_newton = 1.0 / weight_in_air(model, vehicle.body_id)
         self._publisher = node.create_publisher(MarkerArray, f'{vehicle.name}/markers', _LATCHED)
         self._geoms = [g for g in range(model.ngeom) if self._is_drawn(g)]
         self._message = MarkerArray(
