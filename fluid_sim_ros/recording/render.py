@@ -4,15 +4,16 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.recording.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.reader import Log
 from fluid_sim_ros.recording.tracks import Track, read_tracks
 from fluid_sim_ros.recording.water import add_waves
@@ -20,9 +21,7 @@ from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.vehicle import weight_in_air
 
 Array = NDArray[np.float64]
-Picture = NDArray[np.uint8]
 
-KINDS = ('.mp4', '.gif', '.png')
 #: Arrow per recorded wrench: colour (red, green, blue, opacity); the same as the node's markers.
 _ARROWS = {'total': (0.1, 0.5, 0.9, 1.0), 'thrust': (0.9, 0.5, 0.1, 1.0)}
 #: A force equal to the weight is drawn this long, in extents of the vehicle.
@@ -63,16 +62,6 @@ class FilmOptions:
             raise ConfigError('render: size, frames per second and speed must be above 0')
 
 
-class Sink(Protocol):
-    """Where pictures go."""
-
-    def add(self, picture: Picture) -> None:
-        """Take the next picture."""
-
-    def close(self) -> None:
-        """End the file."""
-
-
 def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float], None]) -> int:
     """
     Render a log to .mp4, .gif, or its last picture to .png; return the number of pictures.
@@ -91,19 +80,19 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
 
     """
     if out.suffix not in KINDS:
-        raise ConfigError(f"render: '{out.suffix}' is not known; allowed: {', '.join(KINDS)}")
+        raise ConfigError(f"render: '{out.suffix}' is not known; allowed: {listed(KINDS)}")
     with tempfile.TemporaryDirectory() as folder:
         stage = _Stage(log, Path(folder), options)
         times = stage.frame_times()
         if out.suffix == '.png':
             times = times[-1:] if options.at is None else np.array([options.at])
-        sink = _sink(out, options)
+        file = film_file(out, options.width, options.height, options.rate)
         try:
             for number, time in enumerate(times, 1):
-                sink.add(stage.picture(time))
+                file.add(stage.picture(time))
                 progress(number / len(times))
         finally:
-            sink.close()
+            file.close()
             stage.close()
     return len(times)
 
@@ -253,56 +242,3 @@ def _joint_states(log: Log, track: Track) -> dict[str, tuple[Array, Array]]:
         joint = str(table[f'name[{i}]'][0])
         found[joint] = (times, table[f'position[{i}]'])
     return {name: pair for name, pair in found.items() if np.any(pair[1])}
-
-
-# ---- files -----------------------------------------------------------------------------------
-
-
-def _sink(out: Path, options: FilmOptions) -> Sink:
-    return _Film(out, options) if out.suffix == '.mp4' else _Pictures(out, options)
-
-
-class _Film:
-    """An MP4 file, through ffmpeg."""
-
-    def __init__(self, out: Path, options: FilmOptions) -> None:
-        import imageio_ffmpeg
-
-        self._generator: Any = imageio_ffmpeg.write_frames(
-            str(out), (options.width, options.height), fps=options.rate, quality=7
-        )
-        self._generator.send(None)
-
-    def add(self, picture: Picture) -> None:
-        self._generator.send(np.ascontiguousarray(picture))
-
-    def close(self) -> None:
-        self._generator.close()
-
-
-class _Pictures:
-    """A GIF file, or one PNG."""
-
-    def __init__(self, out: Path, options: FilmOptions) -> None:
-        self._out = out
-        self._duration = 1000.0 / options.rate
-        self._frames: list[Any] = []
-
-    def add(self, picture: Picture) -> None:
-        from PIL import Image
-
-        image: Any = Image.fromarray(picture)
-        if self._out.suffix == '.gif':  # a palette at once: a third of the memory
-            image = image.quantize(128)
-        self._frames.append(image)
-
-    def close(self) -> None:
-        if not self._frames:
-            return
-        first, *others = self._frames
-        if self._out.suffix == '.gif':
-            first.save(
-                self._out, save_all=True, append_images=others, duration=self._duration, loop=0
-            )
-        else:
-            first.save(self._out)

@@ -20,7 +20,7 @@ from fluid_sim_ros.messages.commands import Commands
 from fluid_sim_ros.messages.state_topics import StateTopics
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.recorder_tap import EVENTS
-from fluid_sim_ros.recording.decode import fields
+from fluid_sim_ros.recording.compare import Difference, compare
 from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.reader import Log, LogMessage
 from fluid_sim_ros.scene import Scene
@@ -29,24 +29,6 @@ from fluid_sim_ros.simulation import Simulation
 #: What ``changes`` may name. A wind or current holds for the whole flight, in place of those that
 #: the scene or a command set.
 CHANGES = ('timestep', 'integrator', 'fluid', 'wind', 'current', 'seed')
-
-
-@dataclass(frozen=True)
-class Difference:
-    """The first number of a log that a repetition does not reproduce."""
-
-    topic: str
-    time_s: float
-    step: int
-    field: str
-    recorded: Any
-    simulated: Any
-
-    def __str__(self) -> str:
-        return (
-            f'{self.topic} at {self.time_s:.6f} s (step {self.step}): {self.field} was '
-            f'{self.recorded!r}, is {self.simulated!r}'
-        )
 
 
 @dataclass
@@ -280,30 +262,10 @@ class _Comparer:
             self._differ(message, data)
 
     def _differ(self, message: LogMessage, data: bytes) -> None:
-        result = self._result
-        definition = self._definitions[message.topic]
-        recorded = fields(definition, message.data)
-        simulated = fields(definition, data) if data else {}  # a reading that does not come
-        largest = 0.0
-        for name in recorded | simulated:
-            old, new = recorded.get(name), simulated.get(name)
-            size = _size(old, new)
-            largest = max(largest, size)
-            if result.difference is None and size > self._tolerance:
-                result.difference = Difference(
-                    message.topic, message.log_ns * 1e-9, message.step, name, old, new
-                )
+        result, definition = self._result, self._definitions[message.topic]
+        largest, first = compare(message, data, definition, self._tolerance)
+        result.difference = result.difference or first
         result.largest[message.topic] = max(result.largest.get(message.topic, 0.0), largest)
-
-
-def _size(old: Any, new: Any) -> float:
-    """Return the difference of two values relative to the larger of 1 and the old one."""
-    if isinstance(old, float) and isinstance(new, float):
-        if old == new or (old != old and new != new):
-            return 0.0
-        size = abs(new - old) / max(1.0, abs(old))
-        return size if size == size else float('inf')
-    return 0.0 if old == new else float('inf')
 
 
 def _notes(description: RunDescription, log: Log) -> list[str]:

@@ -1,0 +1,70 @@
+"""How a state message differs from a recorded one, field by field."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from fluid_sim_ros.recording.decode import fields
+from fluid_sim_ros.recording.reader import LogMessage
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The first number of a log that a repetition does not reproduce."""
+
+    topic: str
+    time_s: float
+    step: int
+    field: str
+    recorded: Any
+    simulated: Any
+
+    def __str__(self) -> str:
+        return (
+            f'{self.topic} at {self.time_s:.6f} s (step {self.step}): {self.field} was '
+            f'{self.recorded!r}, is {self.simulated!r}'
+        )
+
+
+def compare(
+    message: LogMessage, data: bytes, definition: str, tolerance: float
+) -> tuple[float, Difference | None]:
+    """
+    Compare the fields of a recorded message with those of another of its type.
+
+    Parameters
+    ----------
+    message
+        As recorded.
+    data
+        CDR bytes of the other; empty: a reading that did not come.
+    definition
+        Of the message type.
+    tolerance
+        Largest difference allowed, relative to the larger of 1 and the recorded number.
+
+    Returns
+    -------
+    The largest difference [-], and the first one beyond the tolerance.
+
+    """
+    recorded = fields(definition, message.data)
+    simulated = fields(definition, data) if data else {}
+    largest, first = 0.0, None
+    for name in recorded | simulated:
+        old, new = recorded.get(name), simulated.get(name)
+        size = _size(old, new)
+        largest = max(largest, size)
+        if first is None and size > tolerance:
+            time = message.log_ns * 1e-9
+            first = Difference(message.topic, time, message.step, name, old, new)
+    return largest, first
+
+
+def _size(old: Any, new: Any) -> float:
+    """Return the difference of two values relative to the larger of 1 and the old one."""
+    if isinstance(old, float) and isinstance(new, float):
+        if old == new or (old != old and new != new):
+            return 0.0
+        size = abs(new - old) / max(1.0, abs(old))
+        return size if size == size else float('inf')
+    return 0.0 if old == new else float('inf')

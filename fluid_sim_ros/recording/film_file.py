@@ -1,0 +1,72 @@
+"""The files that a film goes to: MP4, GIF, or one picture as PNG."""
+
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Picture = NDArray[np.uint8]
+
+KINDS = ('.mp4', '.gif', '.png')
+
+
+class FilmFile(Protocol):
+    """A file that takes pictures."""
+
+    def add(self, picture: Picture) -> None:
+        """Take the next picture."""
+
+    def close(self) -> None:
+        """End the file."""
+
+
+def film_file(out: Path, width: int, height: int, rate: float) -> FilmFile:
+    """Return the file of a film: size [pixels], pictures per second; its kind by its ending."""
+    return _Video(out, width, height, rate) if out.suffix == '.mp4' else _Images(out, rate)
+
+
+class _Video(FilmFile):
+    """An MP4 file, through ffmpeg."""
+
+    def __init__(self, out: Path, width: int, height: int, rate: float) -> None:
+        import imageio_ffmpeg
+
+        self._generator: Any = imageio_ffmpeg.write_frames(
+            str(out), (width, height), fps=rate, quality=7
+        )
+        self._generator.send(None)
+
+    def add(self, picture: Picture) -> None:
+        self._generator.send(np.ascontiguousarray(picture))
+
+    def close(self) -> None:
+        self._generator.close()
+
+
+class _Images(FilmFile):
+    """A GIF file, or one PNG."""
+
+    def __init__(self, out: Path, rate: float) -> None:
+        self._out = out
+        self._duration = 1000.0 / rate
+        self._frames: list[Any] = []
+
+    def add(self, picture: Picture) -> None:
+        from PIL import Image
+
+        image: Any = Image.fromarray(picture)
+        if self._out.suffix == '.gif':  # a palette at once: a third of the memory
+            image = image.quantize(128)
+        self._frames.append(image)
+
+    def close(self) -> None:
+        if not self._frames:
+            return
+        first, *others = self._frames
+        if self._out.suffix == '.gif':
+            first.save(
+                self._out, save_all=True, append_images=others, duration=self._duration, loop=0
+            )
+        else:
+            first.save(self._out)
