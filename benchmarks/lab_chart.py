@@ -3,7 +3,7 @@ Speed against accuracy of the laboratory's problems: charts, tables, orders, Par
 
 Every problem of lab/catalogue.py, measured as ``fluid_sim chart`` does. Errors are repeatable to
 the bit: the Kirchhoff body is measured twice, and compared; so are the two Pareto fronts, which
-rest on wall times. Writes JSON, and for the full volume a picture and a CSV per problem.
+rest on processor times. Writes JSON, and for the full volume a picture and a CSV per problem.
 Run: ``python benchmarks/lab_chart.py [--quick] [--json PATH]``.
 """
 
@@ -29,10 +29,10 @@ def front(result: dict[str, Any]) -> list[dict[str, Any]]:
     return [
         {
             **{key: point[key] for key in SETTING},
-            'wall_us_per_s': point['wall_us_per_s'],
+            'cpu_us_per_s': point['cpu_us_per_s'],
             'error': judged(point, result['judged_by']),
         }
-        for point in sorted(points, key=lambda p: float(p['wall_us_per_s']))
+        for point in sorted(points, key=lambda p: float(p['cpu_us_per_s']))
     ]
 
 

@@ -223,7 +223,7 @@ def _advise(arguments: argparse.Namespace, show: Show) -> int:
         fails = f'{each["fails_at_s"] * 1e3:g} ms' if each['fails_at_s'] else ''
         table.add_row(
             each['rung'], each['integrator'], f'{each["timestep"] * 1e3:g} ms',
-            f'{each["error"]:.2g}', f'{each["wall_us_per_s"]:.4g}', fails,
+            f'{each["error"]:.2g}', f'{each["cpu_us_per_s"]:.4g}', fails,
         )  # fmt: skip
     if advice['choice'] is None:
         lines.append(f'Nothing meets {arguments.tolerance:g}: {advice["missing"]}')
@@ -293,10 +293,10 @@ def _fronts(found: list[dict[str, Any]], files: list[Path]) -> Any:
     )  # fmt: skip
     for result in found:
         front = [point for point in result['points'] if point['pareto']]
-        for point in sorted(front, key=lambda p: float(p['wall_us_per_s'])):
+        for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
             table.add_row(
                 result['problem'], escape(point['rung']), point['integrator'],
-                f'{point["timestep_s"] * 1e3:g} ms', f'{point["wall_us_per_s"]:.4g}',
+                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
                 f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
             )  # fmt: skip
     return Group(table, escape('\n'.join(map(str, files))))

@@ -13,7 +13,7 @@ from fluid_sim_ros.lab.colors import INTEGRATOR_COLORS, rung_colors
 from fluid_sim_ros.lab.pareto import judged
 from fluid_sim_ros.lab.style import MARKERS, STYLE, save_figure
 
-_REAL_TIME = 1e6  # [us of wall time per simulated second]
+_REAL_TIME = 1e6  # [us per simulated second]
 _UNITS = {
     'position_m': 'position error at the end [m]',
     'attitude_rad': 'attitude error at the end [rad]',
@@ -23,7 +23,7 @@ _LEAST = 1e-16
 
 
 def draw(result: dict[str, Any], path: Path) -> Path:
-    """Draw total error and discretisation error against wall time; return the file."""
+    """Draw total error and discretisation error against processor time; return the file."""
     with plt.rc_context(STYLE):
         chaotic = result['sensitivity']['chaotic']
         columns = 1 if chaotic else 2
@@ -56,14 +56,14 @@ def _total(axes: Axes, result: dict[str, Any]) -> None:
     for (rung, integrator), points in _curves(result).items():
         good = [p for p in points if p['error'] is not None]
         (line,) = axes.loglog(
-            [p['wall_us_per_s'] for p in good],
+            [p['cpu_us_per_s'] for p in good],
             [max(judged(p, by) or 0, _LEAST) for p in good],
             color=colors[rung], marker=MARKERS[integrator], ms=4, lw=0.9, mfc='none',
         )  # fmt: skip
         drawn.setdefault(rung, line)
-    front = sorted((p for p in result['points'] if p['pareto']), key=lambda p: p['wall_us_per_s'])
+    front = sorted((p for p in result['points'] if p['pareto']), key=lambda p: p['cpu_us_per_s'])
     ring = axes.scatter(
-        [p['wall_us_per_s'] for p in front],
+        [p['cpu_us_per_s'] for p in front],
         [max(judged(p, by) or 0, _LEAST) for p in front],
         s=90, facecolors='none', edgecolors='black', linewidths=1.1, zorder=4,
     )  # fmt: skip
@@ -96,7 +96,7 @@ def _timestep_alone(axes: Axes, result: dict[str, Any]) -> None:
         ]
         if not good:
             continue
-        x = [p['wall_us_per_s'] for p in good]
+        x = [p['cpu_us_per_s'] for p in good]
         y = [max(p['discretisation'], _LEAST) for p in good]
         order = orders.get(integrator)
         label = integrator + (f', order {order:.2f}' if order else '')
@@ -105,7 +105,7 @@ def _timestep_alone(axes: Axes, result: dict[str, Any]) -> None:
             _guide(axes, x, y, 4)
             for point, height in list(zip(good, y, strict=True))[::2]:
                 axes.annotate(
-                    f'{point["timestep_s"] * 1e3:g} ms', (point['wall_us_per_s'], height),
+                    f'{point["timestep_s"] * 1e3:g} ms', (point['cpu_us_per_s'], height),
                     xytext=(5, 3), textcoords='offset points', fontsize=7, color=color,
                 )  # fmt: skip
         if integrator == 'Euler':
@@ -142,7 +142,7 @@ def _failures(axes: Axes, points: list[dict[str, Any]], color: Any) -> None:
     for point in points:
         if point['status'] != 'ok':
             axes.plot(
-                point['wall_us_per_s'], 0.985, 'x', color=color(point), ms=5,
+                point['cpu_us_per_s'], 0.985, 'x', color=color(point), ms=5,
                 transform=axes.get_xaxis_transform(), clip_on=False,
             )  # fmt: skip
 
@@ -153,7 +153,7 @@ def _frame(axes: Axes, ylabel: str, title: str) -> None:
         _REAL_TIME, 0.5, 'real time ', transform=axes.get_xaxis_transform(), rotation=90,
         ha='right', va='center', fontsize=8, color='#333333',
     )  # fmt: skip
-    axes.set_xlabel('wall time per simulated second [µs]')
+    axes.set_xlabel('processor time per simulated second [µs]')
     axes.set_ylabel(ylabel)
     axes.set_title(title)
     axes.set_xlim(right=2 * _REAL_TIME)

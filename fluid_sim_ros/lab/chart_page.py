@@ -11,7 +11,7 @@ from fluid_sim_ros.lab.pareto import judged
 _TEMPLATE = Path(__file__).with_name('chart.html')
 #: Logarithmic axes end here.
 _LEAST = 1e-16
-_REAL_TIME = 1e6  # [us of wall time per simulated second]
+_REAL_TIME = 1e6  # [us per simulated second]
 
 
 def write_chart_page(results: Sequence[dict[str, Any]], path: Path) -> Path:
@@ -60,22 +60,23 @@ def _plot(
         line = lines.setdefault(name, {'name': name, 'color': color, 'points': []})
         height = error(point)
         line['points'].append({
-            'x': point['wall_us_per_s'],
+            'x': point['cpu_us_per_s'],
             'y': None if height is None else max(height, _LEAST),
             'front': point['pareto'],
             'text': _text(point, height),
         })  # fmt: skip
     return {
-        'title': title, 'xlabel': 'wall time per simulated second [µs]', 'real_time': _REAL_TIME,
+        'title': title, 'xlabel': 'processor time per simulated second [µs]',
+        'real_time': _REAL_TIME,
         'series': list(lines.values()), 'floors': [],
     }  # fmt: skip
 
 
 def _text(point: dict[str, Any], error: float | None) -> str:
     setting = f'{point["rung"]}, {point["integrator"]}, {point["timestep_s"] * 1e3:g} ms'
-    wall = (
-        f'{point["wall_us_per_s"]:.4g} µs per s '
-        f'({point["wall_lowest_us_per_s"]:.4g} to {point["wall_highest_us_per_s"]:.4g})'
+    cost = (
+        f'{point["cpu_us_per_s"]:.4g} µs per s '
+        f'({point["cpu_lowest_us_per_s"]:.4g} to {point["cpu_highest_us_per_s"]:.4g})'
     )
     outcome = point['fault'] or ('no converged run' if error is None else f'error {error:.3g}')
-    return f'{setting}: {wall}, {outcome}'
+    return f'{setting}: {cost}, {outcome}'

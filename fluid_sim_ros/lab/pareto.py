@@ -1,9 +1,9 @@
-"""Which settings are worth their time: the Pareto front of wall time and error."""
+"""Which settings are worth their time: the Pareto front of processor time and error."""
 
 from collections.abc import Sequence
 from typing import Any
 
-#: Wall times closer than this are equal: the clock cannot tell them apart.
+#: Times closer than this are equal: the clock cannot tell them apart.
 SAME_TIME = 1.25
 
 
@@ -31,5 +31,5 @@ def _beats(other: dict[str, Any], point: dict[str, Any], by: str) -> bool:
     theirs, own = judged(other, by), judged(point, by)
     if theirs is None or own is None or theirs > own:
         return False
-    ratio = point['wall_us_per_s'] / other['wall_us_per_s']
+    ratio = point['cpu_us_per_s'] / other['cpu_us_per_s']
     return bool(ratio > SAME_TIME or (theirs < own and ratio > 1 / SAME_TIME))

@@ -51,7 +51,7 @@ def test_a_failed_run_is_a_point(kirchhoff):
     assert failed
     for point in failed:
         assert 'diverged' in point['fault']
-        assert point['wall_us_per_s'] > 0
+        assert point['cpu_us_per_s'] > 0
         assert 0 < point['failed_at_s'] <= 5
         assert point['error'] is None
         assert not point['pareto']
@@ -66,8 +66,8 @@ def test_model_error_is_told_from_the_timestep(kirchhoff):
 
 
 def test_the_front_holds_no_point_that_another_one_beats():
-    def point(wall, error):
-        return {'wall_us_per_s': wall, 'error': None if error is None else {'e': error}}
+    def point(cost, error):
+        return {'cpu_us_per_s': cost, 'error': None if error is None else {'e': error}}
 
     points = [
         point(1, 1), point(10, 0.1), point(10, 0.2), point(100, 0.1), point(11, 0.1),
