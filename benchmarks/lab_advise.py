@@ -2,9 +2,9 @@
 The advisor on every scene: what it chooses, what that costs, and whether a finer run agrees.
 
 Each scene at a tolerance of 1 % and of 5 %. A choice is verified by an independent run with a
-fourth of its step on the next richer rung. Cost is processor time per simulated second over that of
-RK4 at 1 ms with everything on, both timed in one interleaved loop. Writes JSON, a table, and the
-advice at 1 % as a comment into each scene's file.
+fourth of its step on the next richer rung. Cost is processor time per simulated second over that
+of RK4 at 1 ms with everything on, both timed in one interleaved loop. Writes JSON, a table, and
+the advice at 1 % as a comment into each scene's file.
 Run: ``python benchmarks/lab_advise.py [--quick] [--json PATH]``.
 """
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.environment import exact
+from fluid_sim_ros.environment import exact, whole_steps
 from fluid_sim_ros.errors import ConfigError, DivergedError, listed
 from fluid_sim_ros.lab.norms import (
     attitude_error,
@@ -85,6 +85,8 @@ def measure(
     if timesteps:
         problem = replace(problem, timesteps=tuple(sorted(timesteps, reverse=True)))
     settings = _settings(problem, integrators)
+    for timestep in problem.timesteps:
+        whole_steps(problem.sample, timestep, f'{problem.name}: sample')
     converged = {
         name: _converged(problem, rung)
         for name, rung in _counted(problem.rungs.items(), f'{problem.name}: converged', report)
