@@ -44,9 +44,15 @@ def accuracy() -> str:
     return (ROOT / 'benchmarks' / 'results' / 'accuracy_table.md').read_text().strip()
 
 
+def advice() -> str:
+    """Return the table of the advisor's choices, as its benchmark left it."""
+    return (ROOT / 'benchmarks' / 'results' / 'lab_advise_table.md').read_text().strip()
+
+
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'scenes': ('README.md', scenes),
     'accuracy': ('README.md', accuracy),
+    'advice': ('doc/lab.md', advice),
     'parameters': ('doc/parameters.md', node_parameters),
 }
 

@@ -41,7 +41,7 @@ MAPS: dict[str, dict[str, Any]] = {
 }
 #: Fates that leave a state that looks sound, and MuJoCo's warnings silent.
 SILENT = ('energy gain', 'energy loss', 'blow-up')
-CELLS, RUNS = 16, 1000
+CELLS, RUNS = 14, 1000
 
 
 def boundaries() -> dict[str, Any]:

@@ -100,6 +100,8 @@ def progress() -> Iterator['Report']:
 
 def _chart(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.lab import results
+    from fluid_sim_ros.lab.chart import draw
+    from fluid_sim_ros.lab.chart_page import write_chart_page
 
     if arguments.saved:
         found = [results.load(path, 'points') for path in arguments.saved]
@@ -107,9 +109,6 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
         found = _measured(arguments)
     else:
         return _list_problems(arguments, show)
-    from fluid_sim_ros.lab.chart import draw
-    from fluid_sim_ros.lab.chart_page import write_chart_page
-
     folder: Path = arguments.out
     folder.mkdir(parents=True, exist_ok=True)
     files = []
