@@ -7,7 +7,7 @@ import os
 import platform
 import subprocess
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +17,20 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / 'benchmarks' / 'results'
 
 
-def arguments(doc: str | None, name: str) -> argparse.Namespace:
-    """Return ``json`` (path of the result) and ``quick`` from the command line."""
+def arguments(doc: str | None, name: str, parts: Sequence[str] = ()) -> argparse.Namespace:
+    """
+    Return ``json`` (path of the result), ``quick`` and, with ``parts``, ``only``, as given.
+
+    ``only`` names the parts to measure anew; a result keeps the others.
+    """
     parser = argparse.ArgumentParser(description=(doc or name).strip().splitlines()[0])
     parser.add_argument('--json', type=Path, default=RESULTS / f'{name}.json')
     parser.add_argument('--quick', action='store_true', help='a fraction of the volume')
+    if parts:
+        parser.add_argument(
+            '--only', nargs='+', choices=parts, metavar='NAME',
+            help=f'measure these anew, keep the others: {", ".join(parts)}',
+        )  # fmt: skip
     return parser.parse_args()
 
 

@@ -5,9 +5,10 @@ Each scene at a tolerance of 1 % and of 5 %. A choice is verified by an independ
 fourth of its step on the next richer rung. Cost is processor time per simulated second over that
 of RK4 at 1 ms with everything on, both timed in one interleaved loop. Writes JSON, a table, and
 the advice at 1 % as a comment into each scene's file.
-Run: ``python benchmarks/lab_advise.py [--quick] [--json PATH]``.
+Run: ``python benchmarks/lab_advise.py [--quick] [--json PATH] [--only NAME ...]``.
 """
 
+import json
 import time
 from typing import Any
 
@@ -88,14 +89,18 @@ def table(rows: list[dict[str, Any]]) -> str:
 
 def main() -> None:
     """Advise, verify, print, write JSON and table."""
-    options = arguments(__doc__, 'lab_advise')
+    options = arguments(__doc__, 'lab_advise', scene_names())
     rows = []
-    for scene in QUICK if options.quick else scene_names():
+    if options.only and options.json.exists():
+        rows = json.loads(options.json.read_text(encoding='utf-8'))['rows']
+        rows = [row for row in rows if row['scene'] not in options.only]
+    for scene in options.only or (QUICK if options.quick else scene_names()):
         for tolerance in TOLERANCES:
             rows.append(case(scene, tolerance))
             if not options.quick:
                 ship(rows[-1])
             print(table(rows).splitlines()[-1], flush=True)
+    rows.sort(key=lambda row: (row['scene'], row['tolerance']))
     chosen = [row for row in rows if row.get('choice')]
     gains = [row['cheaper_than_baseline'] for row in chosen]
     summary = {

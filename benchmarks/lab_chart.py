@@ -4,9 +4,10 @@ Speed against accuracy of the laboratory's problems: charts, tables, orders, Par
 Every problem of lab/catalogue.py, measured as ``fluid_sim chart`` does. Errors are repeatable to
 the bit: the Kirchhoff body is measured twice, and compared; so are the two Pareto fronts, which
 rest on processor times. Writes JSON, and for the full volume a picture and a CSV per problem.
-Run: ``python benchmarks/lab_chart.py [--quick] [--json PATH]``.
+Run: ``python benchmarks/lab_chart.py [--quick] [--json PATH] [--only NAME ...]``.
 """
 
+import json
 from typing import Any
 
 from common import RESULTS, arguments, write
@@ -73,25 +74,31 @@ def twice() -> dict[str, Any]:
 
 def main() -> None:
     """Measure, print, write JSON, pictures and tables."""
-    options = arguments(__doc__, 'lab_chart')
-    out: dict[str, Any] = {'charts': {}}
-    for name in QUICK if options.quick else PROBLEMS:
+    options = arguments(__doc__, 'lab_chart', list(PROBLEMS))
+    charts: dict[str, Any] = {}
+    if options.only and options.json.exists():
+        charts = json.loads(options.json.read_text(encoding='utf-8'))['charts']
+    for name in options.only or (QUICK if options.quick else PROBLEMS):
         result = measure(
             problem(name), timesteps=STEPS if options.quick else (),
             repeats=1 if options.quick else 2,
         )  # fmt: skip
-        out['charts'][name] = summary(result)
-        print(f'{name}: orders {result["orders"][list(result["rungs"])[-1]]}')
-        for rung, error in out['charts'][name]['smallest_error'].items():
+        charts[name] = summary(result)
+        print(f'{name}: orders {result["orders"][list(result["rungs"])[-1]]}', flush=True)
+        for rung, error in charts[name]['smallest_error'].items():
             print(f'  {rung:26} smallest error {error:.2g} {result["judged_by"]}')
         if not options.quick:
             draw(result, RESULTS / f'lab_chart_{name}.png')
             write_csv(result, RESULTS / f'lab_chart_{name}.csv')
-    best = out['charts']['kirchhoff']['smallest_error']
-    out['kirchhoff_stock_best_m'] = min(best[rung] for rung in STOCK)
-    out['kirchhoff_ours_best_m'] = best['+ added inertia']
-    out['twice'] = twice()
-    print('two runs:', out['twice'])
+    best = charts['kirchhoff']['smallest_error']
+    agree = twice()
+    print('two runs:', agree)
+    out = {
+        'kirchhoff_stock_best_m': min(best[rung] for rung in STOCK),
+        'kirchhoff_ours_best_m': best['+ added inertia'],
+        'twice': agree,
+        'charts': charts,
+    }
     write(options.json, out)
 
 

@@ -12,7 +12,7 @@ from collections import Counter
 from typing import Any
 
 import numpy as np
-from common import RESULTS, arguments, write
+from common import RESULTS, ROOT, arguments, write
 
 from fluid_sim_ros.lab.bodies import FAMILIES, Body, family
 from fluid_sim_ros.lab.boundaries import EXPLICIT
@@ -91,11 +91,10 @@ def maps() -> dict[str, Any]:
     out: dict[str, Any] = {}
     for name, ranges in MAPS.items():
         head = plan(name, cells=CELLS, **ranges)
-        path = RESULTS / f'lab_stability_{name}.jsonl'
-        result = run_map(head, path, restart=True)
+        result = run_map(head, ROOT / 'out' / 'lab_stability' / f'{name}.jsonl', restart=True)
         if family(name).drag:
             result['largest_steps'] = largest_steps(head)
-        draw_map(result, path.with_suffix('.png'))
+        draw_map(result, RESULTS / f'lab_stability_{name}.png')
         out[name] = {
             kind: dict(Counter(row['fate'] for row in result['map'] if row['integrator'] == kind))
             for kind in INTEGRATORS

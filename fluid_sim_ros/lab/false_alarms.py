@@ -29,6 +29,8 @@ def random_run(rng: np.random.Generator) -> tuple[Body, str, float]:
     )
     integrators = ('RK4',) if tumbling else INTEGRATORS
     limit = 2.0 / body.drag_number(1.0) if body.blunt else np.inf
-    turn = 1.0 / (body.spin + body.speed / RADIUS) if tumbling else np.inf
+    # the added-mass moment turns a body at v/r sqrt(m_A/(2/5 m)) or so
+    munk = body.speed / RADIUS * np.sqrt(1 + 2.5 * body.lightness)
+    turn = 1.0 / (body.spin + munk) if tumbling else np.inf
     step = _SMALL * min(limit, turn, 0.1)
     return body, str(rng.choice(integrators)), float(f'{step:.3g}')
