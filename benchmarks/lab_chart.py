@@ -90,6 +90,7 @@ def main() -> None:
         if not options.quick:
             draw(result, RESULTS / f'lab_chart_{name}.png')
             write_csv(result, RESULTS / f'lab_chart_{name}.csv')
+        write(options.json, {'charts': charts})  # what is done stays, whatever comes next
     best = charts['kirchhoff']['smallest_error']
     agree = twice()
     print('two runs:', agree)

@@ -20,6 +20,8 @@ _UNITS = {
     'regime': 'error of mean descent or frequency [-]',
 }
 _LEAST = 1e-16
+#: Where errors span more than this, the legend finds room between them.
+_ROOMY = 1e10
 
 
 def draw(result: dict[str, Any], path: Path) -> Path:
@@ -72,6 +74,9 @@ def _total(axes: Axes, result: dict[str, Any]) -> None:
             axes.axhline(facts['model_error'], color=colors[rung], ls='--', lw=0.8, alpha=0.7)
     _failures(axes, result['points'], lambda p: colors[p['rung']])
     _frame(axes, _UNITS[by], 'Error against the reference')
+    low, high = axes.get_ylim()
+    if high / low < _ROOMY:  # below the curves there is room for the legend
+        axes.set_ylim(low * (low / high) ** 0.5, high)
     shapes = [
         Line2D([], [], color='#555555', marker=marker, ls='', mfc='none', ms=5)
         for marker in MARKERS.values()
@@ -81,7 +86,7 @@ def _total(axes: Axes, result: dict[str, Any]) -> None:
     axes.legend(
         [*drawn.values(), floor, *shapes, ring, cross],
         [*drawn, 'model error', *MARKERS, 'Pareto front', 'failed run'],
-        fontsize=7.5, ncols=2, loc='best' if by == 'regime' else 'lower left',
+        fontsize=7.5, ncols=2, loc='lower left',
     )  # fmt: skip
 
 
@@ -91,9 +96,8 @@ def _timestep_alone(axes: Axes, result: dict[str, Any]) -> None:
     points = [p for p in result['points'] if p['rung'] == richest]
     orders = result['orders'][richest]
     for integrator, color in INTEGRATOR_COLORS.items():
-        good = [
-            p for p in points if p['integrator'] == integrator and p['discretisation'] is not None
-        ]
+        # none where the run failed; 0 is the converged run itself
+        good = [p for p in points if p['integrator'] == integrator and p['discretisation']]
         if not good:
             continue
         x = [p['cpu_us_per_s'] for p in good]
@@ -132,8 +136,8 @@ def _guide(axes: Axes, x: list[float], y: list[float], order: int) -> None:
     height = y[start] * (span / x[start]) ** -order
     axes.loglog(span, height, color='#777777', lw=0.8, ls=':')
     axes.annotate(
-        f'slope {order}', (span[0], height[0]), fontsize=7, color='#555555',
-        xytext=(3, 2), textcoords='offset points',
+        f'slope {order}', (span[1], height[1]), fontsize=7, color='#555555',
+        xytext=(3, -3), textcoords='offset points',
     )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.environment import exact, whole_steps
+from fluid_sim_ros.environment import whole_steps
 from fluid_sim_ros.errors import ConfigError, DivergedError, listed
 from fluid_sim_ros.lab.norms import (
     attitude_error,
@@ -26,7 +26,7 @@ from fluid_sim_ros.lab.norms import (
     sensitivity,
 )
 from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem, Rung, fly
+from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem, Rung, fits, fly
 from fluid_sim_ros.runner import duration_steps
 
 #: A timed run takes at least and at most so many steps.
@@ -162,7 +162,7 @@ def _converged(problem: Problem, rung: Rung) -> Converged:
     finest = problem.timesteps[-1]
     first, *finer = [
         h for h in (4 * finest, 2 * finest, finest, finest / 2)
-        if (exact(problem.sample) / exact(h)).denominator == 1
+        if fits(rung, h, problem.sample)
     ]  # fmt: skip
     coarse = fly(problem, rung, 'RK4', first)
     found = Converged(None, math.inf)
