@@ -124,7 +124,7 @@ RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
 TEST = [
     *MAVLINK,
     *RENDER,
-    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', *SWEEP,
+    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', 'pyarrow>=16',
     *CHARTS,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip

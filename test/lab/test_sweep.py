@@ -210,6 +210,7 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
         conduct(sweep.model_copy(update={'seed': 4}), out)
 
 
+@pytest.mark.full
 def test_ray_gives_the_same_bits_and_survives_a_killed_worker(tmp_path):
     """Two Ray workers on this machine; one is killed on the way."""
     sweep = sweep_of(**{**MANY, 'duration': 0.5})

@@ -96,6 +96,7 @@ class Peer:
         self._thread = threading.Thread(target=self._spin)
         self._thread.start()
         self.diagnostics = {}
+        self._clients = {}
 
     def _spin(self):
         while self.context.ok() and not getattr(self, '_closing', False):
@@ -132,7 +133,10 @@ class Peer:
 
     def call(self, service, name, **fields):
         """Call a service and return its response."""
-        client = self.node.create_client(service, name)
+        # one for all calls: an answer to a new one is lost while its peer has not found it yet
+        if name not in self._clients:
+            self._clients[name] = self.node.create_client(service, name)
+        client = self._clients[name]
         assert client.wait_for_service(PATIENCE), f'no service {name}'
         future = client.call_async(service.Request(**fields))
         wait_until(future.done, f'an answer of {name}')
