@@ -74,6 +74,8 @@ def advise(
     ranked[:2] = [with_limit(problem, reference, each) for each in ranked[:2]]
     return {
         'scene': problem.name,
+        'command': f'fluid_sim advise {problem.name} --tolerance {tolerance:g}'
+        + (f' --duration {duration:g}' if duration is not None else ''),
         'tolerance': tolerance,
         'metric': reference.metric_name,
         'duration_s': problem.duration,
@@ -144,10 +146,7 @@ def settings(advice: dict[str, Any]) -> dict[str, Any]:
 def snippet(advice: dict[str, Any]) -> str:
     """Return the lines for the scene's YAML file."""
     choice = advice['choice']
-    head = (
-        f'# fluid_sim advise {advice["scene"]} --tolerance {advice["tolerance"]:g}: '
-        f'error {choice["error"]:.2g} ({advice["metric"]})\n'
-    )
+    head = f'# {advice["command"]}: error {choice["error"]:.2g} ({advice["metric"]})\n'
     return head + ''.join(f'{key}: {value}\n' for key, value in settings(advice).items())
 
 
