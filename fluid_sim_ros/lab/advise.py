@@ -65,6 +65,7 @@ def advise(
         raise ConfigError(f"metric '{metric_name}' is not known; allowed: {listed(METRICS)}")
     problem = _problem(scene, duration, rate)
     reference = find_reference(problem, tolerance, metric_name, report)
+    named = scene.name if isinstance(scene, Scene) else scene
     candidates, refused = search(problem, reference, tolerance, report)
     if reference.within > tolerance:
         candidates = []  # what they are compared with is not known well enough
@@ -74,7 +75,7 @@ def advise(
     ranked[:2] = [with_limit(problem, reference, each) for each in ranked[:2]]
     return {
         'scene': problem.name,
-        'command': f'fluid_sim advise {problem.name} --tolerance {tolerance:g}'
+        'command': f'fluid_sim advise {named} --tolerance {tolerance:g}'
         + (f' --duration {duration:g}' if duration is not None else ''),
         'tolerance': tolerance,
         'metric': reference.metric_name,
