@@ -136,6 +136,8 @@ class Peer:
         # one for all calls: an answer to a new one is lost while its peer has not found it yet
         if name not in self._clients:
             self._clients[name] = self.node.create_client(service, name)
+            assert self._clients[name].wait_for_service(PATIENCE), f'no service {name}'
+            time.sleep(0.2)
         client = self._clients[name]
         assert client.wait_for_service(PATIENCE), f'no service {name}'
         future = client.call_async(service.Request(**fields))
