@@ -27,7 +27,7 @@ from fluid_sim_ros.autopilot import (
     Surroundings,
     open_bridge,
 )
-from fluid_sim_ros.environment import NEVER
+from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.mavlink.hil_messages import dialect
 from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.runner import NoSource, Runner

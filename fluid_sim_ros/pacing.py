@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from fluid_sim_ros.environment import NEVER
+from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation import Simulation
 

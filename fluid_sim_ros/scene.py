@@ -6,7 +6,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.environment import Schedule
+from fluid_sim_ros.schedule import Schedule
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.fluid_rungs import compile_spec, force_fluid
 from fluid_sim_ros.gaits import Gaits

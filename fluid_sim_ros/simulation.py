@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fluid_sim_ros.commanded_scene import CommandedScene
 from fluid_sim_ros.commands import CommandedWrench
 from fluid_sim_ros.engine import EnergyBalance
-from fluid_sim_ros.environment import Event, exact
+from fluid_sim_ros.schedule import Event, exact
 from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from fluid_sim_ros.environment import exact
+from fluid_sim_ros.schedule import exact
 
 
 @dataclass(frozen=True)

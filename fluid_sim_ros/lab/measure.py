@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.environment import whole_steps
+from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import ConfigError, DivergedError, listed
 from fluid_sim_ros.lab.norms import (
     attitude_error,

@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
-from fluid_sim_ros.environment import exact
+from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.json_packets import (
     LONGEST_PACKET,

@@ -11,7 +11,7 @@ import time
 from collections.abc import Sequence
 
 from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
-from fluid_sim_ros.environment import exact
+from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.hil_messages import Actuators, HilCodec

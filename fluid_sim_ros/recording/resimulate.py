@@ -12,7 +12,7 @@ from typing import Any
 
 import mujoco
 
-from fluid_sim_ros.environment import NEVER, exact
+from fluid_sim_ros.schedule import NEVER, exact
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, listed
 from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics

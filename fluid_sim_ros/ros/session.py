@@ -7,7 +7,7 @@ from typing import Any
 from rclpy.node import Node
 
 from fluid_sim_ros.autopilot import AutopilotPacing
-from fluid_sim_ros.environment import whole_steps
+from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
 from fluid_sim_ros.pacing import Lockstep, Pacing, RealTime
 from fluid_sim_ros.requests import RequestQueue

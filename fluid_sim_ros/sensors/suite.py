@@ -2,7 +2,7 @@
 
 import math
 
-from fluid_sim_ros.environment import NEVER
+from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.sensor_schema import SensorsFile
 from fluid_sim_ros.sensors.airspeed import Airspeed
 from fluid_sim_ros.sensors.beams import Dvl, Rangefinder

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.environment import whole_steps
+from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import DivergedError, FluidSimError
 from fluid_sim_ros.lab.sweep.holding import Holding, holding
 from fluid_sim_ros.lab.sweep.sweep_file import Cases, SweepFile, Value
