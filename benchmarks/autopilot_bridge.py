@@ -27,10 +27,10 @@ from fluid_sim_ros.autopilot import (
     Surroundings,
     open_bridge,
 )
-from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.mavlink.hil_messages import dialect
 from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.runner import NoSource, Runner
+from fluid_sim_ros.schedule import NEVER
 
 SCENE = 'x500_ground'
 #: Share of full speed at which the x500 hovers: sqrt(2.06432 kg x 9.81 m/s^2 / 4 / 8.54858 N).

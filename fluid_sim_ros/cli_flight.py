@@ -13,9 +13,9 @@ from fluid_sim_ros.autopilot import (
     Surroundings,
     open_bridge,
 )
-from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.runner import NoSource, Runner
+from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.simulation import Simulation
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.control.gait import JointWave
-from fluid_sim_ros.schedule import NEVER, exact
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.scene_schema import Gait
+from fluid_sim_ros.schedule import NEVER, exact
 from fluid_sim_ros.vehicle import Vehicle
 
 

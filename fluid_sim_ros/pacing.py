@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.simulation import Simulation
 
 #: Real-time pacing sleeps no longer than this at once, so that requests are served [s].

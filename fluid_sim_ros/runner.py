@@ -3,10 +3,10 @@
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from fluid_sim_ros.schedule import NEVER, exact, whole_steps
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.pacing import Pacing, Source
 from fluid_sim_ros.requests import RequestQueue
+from fluid_sim_ros.schedule import NEVER, exact, whole_steps
 from fluid_sim_ros.simulation import Simulation
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.schedule import Schedule
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.fluid_rungs import compile_spec, force_fluid
 from fluid_sim_ros.gaits import Gaits
@@ -14,6 +13,7 @@ from fluid_sim_ros.mass_factors import scale_masses
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene_schema import Gait, Home, SceneFile, ScheduledEvent, VehicleFile
+from fluid_sim_ros.schedule import Schedule
 from fluid_sim_ros.schema import parse, read_yaml
 from fluid_sim_ros.streams import streams_of
 from fluid_sim_ros.vehicle import Vehicle, free_bodies, resolve

@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import ConfigError, DivergedError, listed
 from fluid_sim_ros.lab.norms import (
     attitude_error,
@@ -28,6 +27,7 @@ from fluid_sim_ros.lab.norms import (
 from fluid_sim_ros.lab.pareto import mark_front
 from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem, Rung, fits, fly
 from fluid_sim_ros.runner import duration_steps
+from fluid_sim_ros.schedule import whole_steps
 
 #: A timed run takes at least and at most so many steps.
 _FEWEST, _MOST = 2000, 8000

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.schedule import exact, whole_steps
 from fluid_sim_ros.errors import ConfigError, DivergedError, ModelError
 from fluid_sim_ros.fluid_rungs import FLUID_RUNGS, has_body_plugins
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.schedule import exact, whole_steps
 from fluid_sim_ros.simulation import Simulation
 
 Array = NDArray[np.float64]

@@ -10,7 +10,6 @@ from fractions import Fraction
 from typing import Any
 
 from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
-from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.json_packets import (
     LONGEST_PACKET,
@@ -22,6 +21,7 @@ from fluid_sim_ros.mavlink.json_packets import (
 from fluid_sim_ros.mavlink.mapping import ActuatorMap
 from fluid_sim_ros.mavlink.sockets import Datagram, UdpPort
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
+from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.sensor_schema import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation

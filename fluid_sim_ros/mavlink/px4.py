@@ -11,13 +11,13 @@ import time
 from collections.abc import Sequence
 
 from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
-from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.hil_messages import Actuators, HilCodec
 from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, AutopilotFile
 from fluid_sim_ros.mavlink.sockets import TcpServer
+from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.simulation import Simulation
 
 #: Port of the first instance; the next ones follow.

@@ -7,7 +7,6 @@ from typing import Any
 from rclpy.node import Node
 
 from fluid_sim_ros.autopilot import AutopilotPacing
-from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
 from fluid_sim_ros.pacing import Lockstep, Pacing, RealTime
 from fluid_sim_ros.requests import RequestQueue
@@ -18,6 +17,7 @@ from fluid_sim_ros.ros.markers import VehicleMarkers
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.recording import start_recording
 from fluid_sim_ros.runner import Runner, duration_steps, period_steps
+from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.simulation import Simulation
 
 #: Wall time between two publications of the present state while held in lockstep [s].

@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.runner import period_steps
+from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.sensor_schema import Channel, SensorFile
 from fluid_sim_ros.sensors.noise import Errors
 from fluid_sim_ros.simulation import Simulation

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.autopilot import AutopilotOptions, AutopilotPacing, Surroundings, open_bridge
-from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.runner import NoSource, Runner
+from fluid_sim_ros.schedule import NEVER
 
 
 def free_port(protocol: str) -> int:

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.errors import DivergedError, FluidSimError
 from fluid_sim_ros.lab.sweep.holding import Holding, holding
 from fluid_sim_ros.lab.sweep.sweep_file import Cases, SweepFile, Value
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.vehicle_plant import plant_of
 
