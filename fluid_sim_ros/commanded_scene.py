@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.commands import CommandedWrench, finite, write_controls
+from fluid_sim_ros.commands import CommandedWrench, Controls, finite
 from fluid_sim_ros.engine import Engine
 from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.scene import CompiledScene
@@ -39,6 +39,19 @@ class CommandedScene:
         self._streams = Streams(self._engine, compiled.streams)
         self._model, self._data = self._engine.model, self._engine.data
         self._wrenches: dict[str, CommandedWrench] = {}
+        control = self._data.ctrl
+        self._thrusts = {
+            v.name: Controls(
+                control, f"thrust of '{v.name}'", v.thrusters, v.thruster_ids, v.thrust_range
+            )
+            for v in self._vehicles.values()
+        }
+        self._joints = {
+            v.name: Controls(
+                control, f"joints of '{v.name}'", v.joints, v.joint_ids, v.joint_range
+            )
+            for v in self._vehicles.values()
+        }
 
     @property
     def model(self) -> mujoco.MjModel:
@@ -101,11 +114,9 @@ class CommandedScene:
             Unknown vehicle, wrong length, or a value that is not finite.
 
         """
-        target = self.vehicle(vehicle)
-        return write_controls(self._data.ctrl,
-            f"thrust of '{vehicle}'", values, target.thrusters, target.thruster_ids,
-            target.thrust_range,
-        )  # fmt: skip
+        if vehicle not in self._thrusts:
+            self.vehicle(vehicle)  # says which there are
+        return self._thrusts[vehicle].write(values)
 
     def set_joints(self, vehicle: str, values: Mapping[str, float] | Sequence[float]) -> int:
         """
@@ -114,19 +125,17 @@ class CommandedScene:
         A mapping may name some of them; the others keep their commands. It ends the scene's gait
         of this vehicle until the next reset.
         """
-        target = self.vehicle(vehicle)
-        what = f"joints of '{vehicle}'"
+        target, joints = self.vehicle(vehicle), self._joints[vehicle]
         if isinstance(values, Mapping):
             unknown = [name for name in values if name not in target.joints]
             if unknown:
                 raise CommandError(
-                    f"{what}: '{unknown[0]}' is not one of them: {listed(target.joints)}"
+                    f"joints of '{vehicle}': '{unknown[0]}' is not one of them: "
+                    f'{listed(target.joints)}'
                 )
-            held = dict(zip(target.joints, self._data.ctrl[target.joint_ids], strict=True))
+            held = dict(zip(target.joints, joints.read(), strict=True))
             values = [{**held, **values}[name] for name in target.joints]
-        saturated = write_controls(
-            self._data.ctrl, what, values, target.joints, target.joint_ids, target.joint_range
-        )
+        saturated = joints.write(values)
         self._gaits.end(vehicle)
         return saturated
 
