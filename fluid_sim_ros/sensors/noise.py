@@ -6,6 +6,7 @@ by seed and sensor name: the error of reading number k is the same in whatever o
 taken, whatever other sensors there are, and after a saved state has been loaded.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -62,62 +63,58 @@ class Errors:
         self._walk = per_axis([c.bias_walk / np.sqrt(rate) for c in stated])
         quanta = [c.resolution or q for c, q in zip(stated, dither or axes, strict=True)]
         self._dither = per_axis(quanta if dither else [0.0] * len(stated))
-        self._rounded = per_axis([c.resolution for c in stated]) > 0
-        self._quantum = per_axis([c.resolution or 1.0 for c in stated])
-        self._low = per_axis([c.range[0] if c.range else -np.inf for c in stated])
-        self._high = per_axis([c.range[1] if c.range else np.inf for c in stated])
-        infinite = np.full(self._width, np.inf)
-        self._below = -infinite if infinite_beyond else self._low
-        self._above = infinite if infinite_beyond else self._high
-
+        # plain floats: a reading has a few numbers only, for which arrays take three times as long
+        limits = [c.range or (-math.inf, math.inf) for c in stated]
+        self._axes = [
+            (c.resolution, low, high, *((-math.inf, math.inf) if infinite_beyond else (low, high)))
+            for (c, count), (low, high) in zip(channels, limits, strict=True)
+            for _ in range(count)
+        ]
         self._random = bool(self._white.any() or self._walk.any() or self._dither.any())
-        self._rounds = bool(self._rounded.any())
-        self._saturates = any(c.range for c in stated)
         entropy = [seed % (1 << 64), *name.encode()]
         self._key = np.random.SeedSequence(entropy).generate_state(2, np.uint64)
         self._block = -1
-        self._added = np.zeros((BLOCK, self._width))
+        self._added: list[list[float]] = []
         #: Bias at the begin of each block that was drawn so far.
         self._bias = [np.zeros(self._width)]
-        self._scratch = np.empty(self._width)
 
     def apply(self, index: int, values: Array) -> int:
         """Turn the true values of reading ``index`` into readings; return how many saturated."""
+        numbers = values.tolist()
         if self._random:
             block, place = divmod(index, BLOCK)
             if block != self._block:
                 self._draw(block)
-            values += self._added[place]
-        if self._rounds:
-            scratch = self._scratch
-            np.divide(values, self._quantum, out=scratch)
-            np.rint(scratch, out=scratch)
-            np.multiply(scratch, self._quantum, out=scratch)
-            np.copyto(values, scratch, where=self._rounded)
-        if not self._saturates:
-            return 0
-        below, above = values < self._low, values > self._high
-        beyond = int(np.count_nonzero(below) + np.count_nonzero(above))
-        if beyond:
-            np.copyto(values, self._below, where=below)
-            np.copyto(values, self._above, where=above)
+            numbers = [n + a for n, a in zip(numbers, self._added[place], strict=True)]
+        beyond = 0
+        for i, (quantum, low, high, below, above) in enumerate(self._axes):
+            if quantum and math.isfinite(numbers[i]):
+                numbers[i] = round(numbers[i] / quantum) * quantum
+            if numbers[i] < low:
+                numbers[i] = below
+                beyond += 1
+            elif numbers[i] > high:
+                numbers[i] = above
+                beyond += 1
+        values[:] = numbers
         return beyond
 
     def _draw(self, block: int) -> None:
         """Draw what is added to the readings of a block."""
         self._block = block
-        self._added[:] = 0.0
+        added = np.zeros((BLOCK, self._width))
         if self._white.any():
-            self._added += self._white * self._normals(_WHITE, block)
+            added += self._white * self._normals(_WHITE, block)
         if self._walk.any():
             while len(self._bias) <= block:
                 last = len(self._bias) - 1
                 self._bias.append(self._bias[last] + self._steps(last)[-1])
-            self._added += self._bias[block]
-            self._added[1:] += self._steps(block)[:-1]
+            added += self._bias[block]
+            added[1:] += self._steps(block)[:-1]
         if self._dither.any():
             shape = (BLOCK, self._width)
-            self._added += self._dither * self._generator(_DITHER, block).uniform(-1, 1, shape)
+            added += self._dither * self._generator(_DITHER, block).uniform(-1, 1, shape)
+        self._added = added.tolist()
 
     def _steps(self, block: int) -> Array:
         """Return the bias after each reading of a block, from the block's begin."""

@@ -147,6 +147,11 @@ class Sensor(ABC):
         Name of its coordinate frame, and the turn from that frame to base_link, scalar first.
     period, latency
         Steps between two readings, and from what is measured to its reading.
+    step
+        At which it was last updated; -1: never.
+    under_way
+        Readings that were taken and have not appeared yet: when they will [step], their time [ns],
+        values.
     fresh
         A new reading has appeared at the last ``update``.
     time_ns
@@ -195,17 +200,17 @@ class Sensor(ABC):
         self.values = np.zeros(width)
         # one row for each reading that may be under way, and one for the next
         self._rows = np.zeros((self.latency // self.period + 2, width))
-        self._pending: deque[tuple[int, int, Array]] = deque()
+        self.under_way: deque[tuple[int, int, Array]] = deque()
         self.saturated = 0
         self.reset()
 
     def reset(self) -> None:
         """Forget every reading, as before the first; the count of saturations goes on."""
-        self._step = -1
+        self.step = -1
         self.fresh = False
         self.time_ns = -1
         self.values[:] = 0.0
-        self._pending.clear()
+        self.under_way.clear()
 
     def update(self, step: int, time_ns: int) -> None:
         """
@@ -214,22 +219,22 @@ class Sensor(ABC):
         The caller has observed the state at this step boundary (with forces if due and needed).
         A second call at the same step changes nothing; a step that goes back forgets all.
         """
-        if step == self._step:
+        if step == self.step:
             return
-        if step < self._step:
+        if step < self.step:
             self.reset()
-        elif step > self._step + self.period:  # nobody asked for some time
-            self._pending.clear()
-        self._step = step
+        elif step > self.step + self.period:  # nobody asked for some time
+            self.under_way.clear()
+        self.step = step
         self.fresh = False
         if step % self.period == 0:
             index = step // self.period
             row = self._rows[index % len(self._rows)]
             if self._measure(row):
                 self.saturated += self._errors.apply(index, row)
-                self._pending.append((step + self.latency, time_ns, row))
-        while self._pending and self._pending[0][0] <= step:
-            _, self.time_ns, row = self._pending.popleft()
+                self.under_way.append((step + self.latency, time_ns, row))
+        while self.under_way and self.under_way[0][0] <= step:
+            _, self.time_ns, row = self.under_way.popleft()
             self.values[:] = row
             self.fresh = True
         if self.fresh:
@@ -264,13 +269,13 @@ class Sensor(ABC):
 
     def save_state(self) -> SavedSensor:
         """Return the present reading and those under way."""
-        pending = tuple((due, time_ns, row.copy()) for due, time_ns, row in self._pending)
-        return SavedSensor(self._step, self.fresh, self.time_ns, self.values.copy(), pending)
+        pending = tuple((due, time_ns, row.copy()) for due, time_ns, row in self.under_way)
+        return SavedSensor(self.step, self.fresh, self.time_ns, self.values.copy(), pending)
 
     def load_state(self, saved: SavedSensor) -> None:
         """Go on from a saved state; the simulation's was loaded before."""
-        self._step, self.fresh, self.time_ns = saved.step, saved.fresh, saved.time_ns
+        self.step, self.fresh, self.time_ns = saved.step, saved.fresh, saved.time_ns
         self.values[:] = saved.values
-        self._pending = deque((due, ns, row.copy()) for due, ns, row in saved.pending)
+        self.under_way = deque((due, ns, row.copy()) for due, ns, row in saved.pending)
         if self.time_ns >= 0:
             self._convert()

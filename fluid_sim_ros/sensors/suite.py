@@ -84,13 +84,23 @@ class SensorSuite:
 
     def update(self) -> None:
         """Sample what is due at this step boundary."""
-        tick = self._simulation.tick
-        due = [sensor for sensor in self.sensors if tick % sensor.period == 0]
-        if due:
-            self._simulation.observe(any([sensor.needs_forces for sensor in due]))
-        time_ns = self._simulation.time_ns
+        simulation = self._simulation
+        tick = simulation.tick
+        due = forces = False
         for sensor in self.sensors:
-            sensor.update(tick, time_ns)
+            if tick % sensor.period == 0:
+                due, forces = True, forces or sensor.needs_forces
+        if due:
+            simulation.observe(forces)
+        self.read(tick, simulation.time_ns)
+
+    def read(self, tick: int, time_ns: int) -> None:
+        """Sample what is due, of a state that the caller has observed (with forces if needed)."""
+        for sensor in self.sensors:
+            if tick % sensor.period == 0 or sensor.under_way or tick <= sensor.step:
+                sensor.update(tick, time_ns)
+            else:
+                sensor.fresh = False
 
     def reset(self) -> None:
         """Forget every reading, as after a reset to another state at the same step."""
