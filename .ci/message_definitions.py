@@ -18,7 +18,7 @@ TYPES = (
     'visualization_msgs/msg/MarkerArray', 'sensor_msgs/msg/Imu', 'sensor_msgs/msg/MagneticField',
     'sensor_msgs/msg/NavSatFix', 'sensor_msgs/msg/FluidPressure', 'geometry_msgs/msg/PoseStamped',
     'geometry_msgs/msg/TwistWithCovarianceStamped', 'sensor_msgs/msg/Range',
-    'geometry_msgs/msg/Vector3Stamped', 'sensor_msgs/msg/BatteryState',
+    'geometry_msgs/msg/Vector3Stamped', 'sensor_msgs/msg/BatteryState', 'sensor_msgs/msg/Joy',
 )  # fmt: skip
 # Not among the wheels: the text and the hash of ROS 2 Jazzy's tf2_msgs.
 ELSEWHERE = {

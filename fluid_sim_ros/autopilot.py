@@ -10,7 +10,7 @@ import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, Literal, Protocol
+from typing import Any, ClassVar, Literal, Protocol
 
 from fluid_sim_ros.extras import needed_for
 from fluid_sim_ros.messages.templates import joint_command, multi_array
@@ -45,6 +45,8 @@ class AutopilotOptions:
         Address to listen on; anything but a loopback address lets other hosts in.
     timeout
         Wall time without an answer after which the autopilot counts as gone [s].
+    sticks_timeout
+        Wall time without moved sticks after which the radio control is lost [s]; 0: never.
 
     """
 
@@ -55,6 +57,7 @@ class AutopilotOptions:
     port: int = 0
     address: str = LOOPBACK
     timeout: float = 1.0
+    sticks_timeout: float = 0.5
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,7 @@ class Bridge(Protocol):
     """An autopilot at the other end of a socket; every method runs in the stepping thread."""
 
     vehicle: str
+    takes_sticks: ClassVar[bool]
 
     def begin(self, simulation: Simulation) -> None:
         """Go on from the simulation's present time, which a reset may have set back."""
@@ -79,6 +83,9 @@ class Bridge(Protocol):
 
     def meet(self, simulation: Simulation) -> bool:
         """Exchange state and commands at a boundary; False: no answer yet, do not step."""
+
+    def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
+        """Take the sticks of a radio control, -1 to 1; CommandError where they do not fit."""
 
     def status(self) -> BridgeStatus:
         """Return what to show people."""

@@ -9,8 +9,7 @@ import time
 from fractions import Fraction
 from typing import Any
 
-from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
-from fluid_sim_ros.mavlink.counters import Counters
+from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.json_packets import (
     LONGEST_PACKET,
     JsonState,
@@ -18,6 +17,7 @@ from fluid_sim_ros.mavlink.json_packets import (
     read_servo_packet,
     write_state,
 )
+from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import ActuatorMap
 from fluid_sim_ros.mavlink.sockets import Datagram, UdpPort
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
@@ -28,27 +28,18 @@ from fluid_sim_ros.simulation import Simulation
 
 #: Port of the first instance, and from one instance to the next.
 FIRST_PORT, PORT_STEP = 9002, 10
-#: Longest wait at a time [s], so that requests of other threads are served.
-_SLICE = 0.05
 #: What a rangefinder without an echo says [m].
 _OUT_OF_RANGE = 1000.0
 
 
-class ArduPilotBridge:
+class ArduPilotBridge(AutopilotLink):
     """
     One ArduPilot at one vehicle.
 
     Parameters
     ----------
-    simulation, options, surroundings
-        As for ``autopilot.open_bridge``.
-    actuators
-        What its outputs drive.
-
-    Attributes
-    ----------
-    counters
-        What has happened.
+    simulation, options, surroundings, actuators
+        As for ``AutopilotLink``.
 
     Raises
     ------
@@ -57,6 +48,8 @@ class ArduPilotBridge:
 
     """
 
+    name, protocol = 'ArduPilot', 'ardupilot'
+
     def __init__(
         self,
         simulation: Simulation,
@@ -64,12 +57,7 @@ class ArduPilotBridge:
         surroundings: Surroundings,
         actuators: ActuatorMap,
     ) -> None:
-        self.vehicle = options.vehicle
-        self.counters = Counters()
-        self._surroundings = surroundings
-        self._timeout = options.timeout
-        self._actuators = actuators
-        self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
+        super().__init__(simulation, options, surroundings, actuators)
         self._truth = TruthReader(simulation, options.vehicle)
         self._simulation = simulation
         self._suite = _sensors(simulation, options.vehicle)
@@ -82,7 +70,6 @@ class ArduPilotBridge:
         self._heard_at = 0.0
         self._gone = False
         self._count = -1
-        self._pulses: tuple[int, ...] = ()
         self._rate = 0
         self._steps = 0  # of a frame
         self._frame_end = 0  # step at which the present frame ends
@@ -122,23 +109,18 @@ class ArduPilotBridge:
         self._start_frame(simulation, packet)
         return True
 
-    def status(self) -> BridgeStatus:
-        """Return what to show people."""
-        counters = self.counters
-        values = {
-            'protocol': 'ardupilot', 'port': self.port, 'peer': _text(self._peer),
-            'frame_rate_hz': self._rate, 'frame_count': self._count,
-            'last_outputs': list(self._pulses),
-            'saturated': self._commands.saturated, **counters.values(),
+    def _values(self) -> dict[str, Any]:
+        return {
+            'port': self.port, 'peer': _text(self._peer), 'frame_rate_hz': self._rate,
+            'frame_count': self._count,
         }  # fmt: skip
+
+    def _trouble(self) -> Trouble | None:
         if self._peer is None:
-            return BridgeStatus('warn', f'waiting for ArduPilot on UDP port {self.port}', values)
+            return 'warn', f'waiting for ArduPilot on UDP port {self.port}'
         if self._gone:
-            return BridgeStatus('error', 'ArduPilot is silent; waiting for it', values)
-        if counters.malformed:
-            line = f'{counters.malformed} malformed packets, last: {counters.last_fault}'
-            return BridgeStatus('warn', line, values)
-        return BridgeStatus('ok', 'in lockstep', values)
+            return 'error', 'ArduPilot is silent; waiting for it'
+        return None
 
     def close(self) -> None:
         """Close the socket."""
@@ -157,8 +139,7 @@ class ArduPilotBridge:
     def _measure(self) -> tuple[float | None, float | None]:
         """Return airspeed and distance to the ground where the vehicle has sensors for them."""
         suite, simulation = self._suite, self._simulation
-        for sensor in suite.sensors:  # the state was observed for the truth
-            sensor.update(simulation.tick, simulation.time_ns)
+        suite.read(simulation.tick, simulation.time_ns)  # the truth's reader has observed
         airspeed = suite.airspeed.airspeed if suite.airspeed else None
         if suite.rangefinder is None:
             return airspeed, None
@@ -182,13 +163,7 @@ class ArduPilotBridge:
             if self._surroundings.log is not None:
                 self._surroundings.log.event(timestep=str(timestep))
         self._count = packet.count
-        self._pulses = packet.pulses
-        self._commands.set(*self._actuators.commands(packet.pulses))
-        stray = self._actuators.look_for_stray(packet.pulses)
-        if stray is not None:
-            self._surroundings.report(
-                f'output {stray}', f'ArduPilot moves output {stray}, which drives nothing'
-            )
+        self._drive(packet.pulses)
         self.counters.answered += 1
         self._frame_end = simulation.step_count + self._steps
         self._owed = True
@@ -199,7 +174,7 @@ class ArduPilotBridge:
         """Return the packet that begins the next frame, or None when it is not there yet."""
         got, self._later = self._later, None
         if got is None:
-            got = self._port.receive(_SLICE)
+            got = self._port.receive(SLICE)
         now = time.monotonic()
         if got is None:
             self._note_silence(now)
@@ -207,8 +182,7 @@ class ArduPilotBridge:
         data, sender = got
         packet = read_servo_packet(data)
         if isinstance(packet, str):
-            self.counters.fault(packet)
-            self._surroundings.report('malformed', f'ArduPilot: {packet}')
+            self._malformed(packet)
             return None
         if sender != self._peer and not self._adopt(sender, now):
             return None

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pymavlink.dialects.v20 import common as dialect
 
 from fluid_sim_ros.mavlink.ned import Quaternion, Vector3
+from fluid_sim_ros.mavlink.wire import Frame
 
 #: Bits of HIL_SENSOR.fields_updated; PX4 takes a group only with all of its bits.
 ACCELEROMETER, GYRO, MAGNETOMETER = 0x007, 0x038, 0x1C0
@@ -26,10 +27,13 @@ _GCS, _NOT_AN_AUTOPILOT = 6, 8  # MAV_TYPE_GCS, MAV_AUTOPILOT_INVALID
 _COURSE_UNKNOWN = 65535  # [cdeg]
 #: Upper triangle of a 6x6 covariance: places of its diagonal.
 _DIAGONAL = (0, 6, 11, 15, 18, 20)
-#: First byte of a message of MAVLink 1 and 2.
-MAVLINK1, _MAVLINK2 = 0xFE, 0xFD
-#: What a message of MAVLink 2 has around its payload [bytes], unsigned.
-_FRAME = 12
+#: First byte of a message of MAVLink 1.
+MAVLINK1 = 0xFE
+#: The two messages of every exchange.
+_SENSORS = Frame(dialect.MAVLink_hil_sensor_message)
+_ANSWER = Frame(dialect.MAVLink_hil_actuator_controls_message)
+#: MAV_MODE_FLAG_SAFETY_ARMED of ``mode``, HIL_ACTUATOR_CONTROLS_FLAGS_LOCKSTEP of ``flags``.
+_ARMED, _LOCKSTEP = 128, 1
 #: Message ids.
 _ACTUATORS, _OLD_CONTROLS = 93, 91
 
@@ -116,13 +120,15 @@ class HilCodec:
             fields |= BAROMETER
         if differential is not None:
             fields |= AIRSPEED
-        return self._pack(
-            dialect.MAVLink_hil_sensor_message(
-                time_us, *readings.specific_force, *readings.gyro, *field_frd,
-                pressure or 0.0, differential or 0.0, readings.pressure_altitude,
-                readings.temperature, fields, 0,
-            )
+        mav = self._mav
+        data = _SENSORS.pack(
+            mav.seq, mav.srcSystem, mav.srcComponent,
+            time_us, *readings.specific_force, *readings.gyro, *field_frd,
+            pressure or 0.0, differential or 0.0, readings.pressure_altitude,
+            readings.temperature, fields, 0,
         )  # fmt: skip
+        mav.seq = (mav.seq + 1) % 256
+        return data
 
     def gps(
         self,
@@ -209,16 +215,19 @@ class HilCodec:
     def receive(self, data: bytes) -> Received:
         """Read a portion of the stream; an unfinished message waits for the next portion."""
         received, mav = Received(), self._mav
-        for message in self._messages(data):
+        # most portions are one whole answer
+        if not mav.buf and (fields := _ANSWER.read(data)) is not None:
+            time_us, flags, *controls, mode = fields
+            received.messages = 1
+            received.actuators.append(_actuators(time_us, controls, mode, flags))
+            return received
+        for message in mav.parse_buffer(data) or ():
             kind = message.get_msgId()
             if kind == _ACTUATORS:
                 received.messages += 1
                 received.actuators.append(
-                    Actuators(
-                        message.time_usec, message.controls,
-                        bool(message.mode & 128), bool(message.flags & 1),
-                    )
-                )  # fmt: skip
+                    _actuators(message.time_usec, message.controls, message.mode, message.flags)
+                )
             elif kind == _OLD_CONTROLS:
                 received.faults.append('HIL_CONTROLS: this PX4 is too old; it needs 1.9 or later')
             elif kind < 0:
@@ -231,16 +240,9 @@ class HilCodec:
             mav.buf_index = 0
         return received
 
-    def _messages(self, data: bytes) -> Sequence[dialect.MAVLink_message]:
-        mav = self._mav
-        # most portions are one whole message, which needs no search for its begin and end
-        unsigned = len(data) >= _FRAME and data[0] == _MAVLINK2 and not data[2]
-        if mav.buf or not unsigned or len(data) != data[1] + _FRAME:
-            return mav.parse_buffer(data) or ()
-        try:
-            return (mav.decode(bytearray(data)),)
-        except dialect.MAVError:
-            return (dialect.MAVLink_bad_data(data, 'a whole message'),)
+
+def _actuators(time_us: int, controls: Sequence[float], mode: int, flags: int) -> Actuators:
+    return Actuators(time_us, controls, bool(mode & _ARMED), bool(flags & _LOCKSTEP))
 
 
 def _fault(message: dialect.MAVLink_message) -> str:

@@ -8,6 +8,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.hil_messages import HilCodec, SensorReadings
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
+from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
 from fluid_sim_ros.physics.atmosphere import (
     pressure_altitude,
@@ -50,6 +51,8 @@ class HilState:
         Who is measured.
     file
         The mapping.
+    sticks
+        Of a radio control.
 
     Raises
     ------
@@ -58,8 +61,10 @@ class HilState:
 
     """
 
-    def __init__(self, simulation: Simulation, vehicle: str, file: AutopilotFile) -> None:
-        self._vision, self._rc = file.vision, tuple(file.rc)
+    def __init__(
+        self, simulation: Simulation, vehicle: str, file: AutopilotFile, sticks: Sticks
+    ) -> None:
+        self._vision, self._sticks = file.vision, sticks
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home
         self._frame, self._altitude = LocalFrame(home), home.altitude
@@ -93,8 +98,8 @@ class HilState:
             data += codec.gps(now_us, gnss.latitude, gnss.longitude, gnss.altitude, velocity)
         if count % _TRUTH == 0:
             data += self._true_state(codec, now_us)
-        if self._rc and count % _STICKS == 0:
-            data += codec.rc_channels(now_us // 1000, self._rc)
+        if count % _STICKS == 0 and (pulses := self._sticks.pulses()):
+            data += codec.rc_channels(now_us // 1000, pulses)
         # last, because it is what PX4 answers to
         return data + codec.sensors(now_us, readings)
 

@@ -18,6 +18,8 @@ from fluid_sim_ros.vehicle import Vehicle
 OUTPUTS = {'px4': 16, 'ardupilot': 32}
 #: An output that drives nothing counts as commanded when it has moved by this share of 1.
 _MOVED = 0.05
+#: Values of pulse width [us] are larger than this, controls of PX4 are not.
+_PULSE = 100.0
 #: Every so many answers of the autopilot they are looked through.
 _LOOK = 25
 
@@ -219,45 +221,37 @@ def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]
 
 def _curve(actuator: ActuatorFile, low: float, high: float) -> Curve:
     """Return the command [N or rad] of an output's value, between the actuator's limits."""
-    share = _share(actuator.input)
-    sign = -1.0 if actuator.reversed else 1.0
+    points = actuator.input
+    rest, full = points[-2:]
+    ahead, back = 1.0 / (full - rest), 1.0 / (rest - points[0]) if len(points) == 3 else 0.0
+    silent = rest >= _PULSE  # an output that is off sends no pulse
+    command = _by_share(actuator, low, high)
+
+    def curve(value: float) -> float:
+        share = 0.0  # also where the value is no number
+        if rest < value < math.inf:
+            share = min((value - rest) * ahead, 1.0)
+        elif -math.inf < value < rest and not (silent and value == 0):
+            share = max((value - rest) * back, -1.0)
+        return command(share)
+
+    return curve
+
+
+def _by_share(actuator: ActuatorFile, low: float, high: float) -> Curve:
+    """Return the command [N or rad] of a share of full command, -1 to 1."""
+    if actuator.reversed:
+        plain = _by_share(actuator.model_copy(update={'reversed': False}), low, high)
+        return lambda share: plain(-share)
     if actuator.thruster and actuator.curve == 't200':
         pulses, thrusts = t200_table(actuator.voltage).T.tolist()
         # the table is the T200's; the limits are those of the model's thruster
-        return lambda value: min(
-            max(_interpolate(1500.0 + 400.0 * sign * share(value), pulses, thrusts), low), high
+        return lambda share: min(
+            max(_interpolate(1500.0 + 400.0 * share, pulses, thrusts), low), high
         )
     if actuator.thruster and actuator.curve == 'rotor_speed':
-
-        def by_speed(value: float) -> float:
-            speed = sign * share(value)
-            return _scaled(speed * abs(speed), low, high)
-
-        return by_speed
-    return lambda value: _scaled(sign * share(value), low, high)
-
-
-def _share(points: Sequence[float]) -> Callable[[float], float]:
-    """Return the share of full command at an output's value; no number, and 0 us, are rest."""
-    rest, full = points[-2], points[-1]
-    reverse = points[0]
-    ahead, back = 1.0 / (full - rest), 1.0 / (rest - reverse) if len(points) == 3 else 0.0
-    silent = rest >= 100.0  # pulse widths: an output that is off sends none
-
-    def share(value: float) -> float:
-        if not math.isfinite(value):
-            return 0.0
-        if value > rest:
-            return min((value - rest) * ahead, 1.0)
-        if value < rest and not (silent and value == 0):
-            return max((value - rest) * back, -1.0)
-        return 0.0
-
-    return share
-
-
-def _scaled(share: float, low: float, high: float) -> float:
-    return share * high if share >= 0 else -share * low
+        return lambda share: share * share * (high if share >= 0 else low)
+    return lambda share: share * (high if share >= 0 else -low)
 
 
 def _interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:

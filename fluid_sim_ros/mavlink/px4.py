@@ -9,14 +9,16 @@ free-wheels: without an answer it goes on at real time.
 
 import time
 from collections.abc import Sequence
+from typing import Any
 
-from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
+from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.hil_messages import Actuators, HilCodec
 from fluid_sim_ros.mavlink.hil_state import HilState
+from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, AutopilotFile
 from fluid_sim_ros.mavlink.sockets import TcpServer
+from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.simulation import Simulation
 
@@ -24,27 +26,20 @@ from fluid_sim_ros.simulation import Simulation
 FIRST_PORT = 4560
 #: Between two exchanges [us]: PX4 answers each HIL_SENSOR at this rate.
 PERIOD_US = 4000
-#: Longest wait at a time [s], so that requests of other threads are served.
-_SLICE = 0.05
 #: Wall time for one exchange while free-wheeling [s]: real time.
 _FREE_WHEEL = PERIOD_US * 1e-6
 
 
-class Px4Bridge:
+class Px4Bridge(AutopilotLink):
     """
     One PX4 at one vehicle.
 
     Parameters
     ----------
-    simulation, options, surroundings
-        As for ``autopilot.open_bridge``.
-    actuators, file
-        What its outputs drive, and the rest of the mapping.
-
-    Attributes
-    ----------
-    counters
-        What has happened.
+    simulation, options, surroundings, actuators
+        As for ``AutopilotLink``.
+    file
+        The rest of the mapping.
 
     Raises
     ------
@@ -52,6 +47,9 @@ class Px4Bridge:
         If 4 ms are not a whole number of timesteps, or the port is in use.
 
     """
+
+    name, protocol = 'PX4', 'px4'
+    takes_sticks = True
 
     def __init__(
         self,
@@ -67,20 +65,15 @@ class Px4Bridge:
                 f'px4: the timestep of {simulation.timestep:g} s does not divide 4 ms, the period '
                 'of PX4; choose one that does, such as 0.002 s'
             )
-        self.vehicle = options.vehicle
-        self.counters = Counters()
-        self._surroundings = surroundings
-        self._timeout = options.timeout
-        self._actuators = actuators
-        self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
+        super().__init__(simulation, options, surroundings, actuators)
         self._period = steps.numerator
-        self._state = HilState(simulation, options.vehicle, file)
+        self._sticks = Sticks(file.rc, options.sticks_timeout)
+        self._state = HilState(simulation, options.vehicle, file, self._sticks)
         self._codec = HilCodec()
         self._server = TcpServer(options.address, options.port or FIRST_PORT + options.instance)
         self.port = self._server.port
         self._locked = False  # it has answered: wait for it
         self._flown = False  # an autopilot was here before
-        self._outputs: Sequence[float] = ()
         self._armed = False
         self._sent_us = 0
         self._answered_us = 0
@@ -109,31 +102,32 @@ class Px4Bridge:
         if now_us != self._sent_us:
             if self._server.stuck:  # it has not read for seconds: it is halted
                 self._server.send()
-                self._receive(_SLICE)
+                self._receive(SLICE)
                 return False
             self._send(simulation, now_us)
         return self._wait()
 
-    def status(self) -> BridgeStatus:
-        """Return what to show people."""
-        counters, server = self.counters, self._server
-        values = {
-            'protocol': 'px4', 'port': self.port, 'peer': server.peer,
+    def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
+        """Take the sticks of a radio control, which PX4 gets as RC_CHANNELS; see ``Sticks``."""
+        self._sticks.move(axes, buttons)
+
+    def _values(self) -> dict[str, Any]:
+        return {
+            'port': self.port, 'peer': self._server.peer,
             'autopilot_time_s': self._sent_us * 1e-6, 'armed': self._armed,
-            'last_outputs': [round(value, 3) for value in self._outputs],
-            'saturated': self._commands.saturated, **counters.values(),
+            'sticks_lost': self._sticks.lost,
         }  # fmt: skip
+
+    def _trouble(self) -> Trouble | None:
+        server = self._server
         if not server.connected:
-            return BridgeStatus('warn', f'waiting for PX4 on TCP port {self.port}', values)
+            return 'warn', f'waiting for PX4 on TCP port {self.port}'
         if server.stuck:
-            return BridgeStatus('error', 'PX4 does not read; waiting for it', values)
+            return 'error', 'PX4 does not read; waiting for it'
         if not self._locked:
-            line = 'PX4 is silent' if counters.gone else 'PX4 is connected, no answer yet'
-            return BridgeStatus('warn', f'{line}: going on at real time', values)
-        if counters.malformed:
-            line = f'{counters.malformed} malformed messages, last: {counters.last_fault}'
-            return BridgeStatus('warn', line, values)
-        return BridgeStatus('ok', 'in lockstep', values)
+            line = 'PX4 is silent' if self.counters.gone else 'PX4 is connected, no answer yet'
+            return 'warn', f'{line}: going on at real time'
+        return None
 
     def close(self) -> None:
         """Close the connection and the port."""
@@ -146,7 +140,7 @@ class Px4Bridge:
 
     def _greet(self) -> bool:
         """Wait a short while for a connection; True when one is new and time may go on."""
-        if not self._server.accept(_SLICE):
+        if not self._server.accept(SLICE):
             return False
         self.counters.connections += 1
         self._codec = HilCodec()
@@ -171,7 +165,7 @@ class Px4Bridge:
         patience = self._timeout if self._locked else _FREE_WHEEL
         while True:
             left = self._asked_at + patience - time.monotonic()
-            if not self._receive(min(left, _SLICE)):
+            if not self._receive(min(left, SLICE)):
                 return False
             if self._answered_us == self._sent_us:
                 return True
@@ -180,7 +174,7 @@ class Px4Bridge:
             elif left <= 0:
                 self._note_silence()
                 return True
-            elif left > _SLICE:
+            elif left > SLICE:
                 return False  # serve requests, and come back
 
     def _receive(self, timeout: float) -> bool:
@@ -192,8 +186,7 @@ class Px4Bridge:
         if data:
             received = self._codec.receive(data)
             for fault in received.faults:
-                self.counters.fault(fault)
-                self._surroundings.report('malformed', f'PX4: {fault}')
+                self._malformed(fault)
             for actuators in received.actuators:
                 self._take(actuators)
         return True
@@ -218,13 +211,7 @@ class Px4Bridge:
             if not actuators.lockstep:
                 self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
         self._armed = actuators.armed
-        self._outputs = actuators.controls
-        self._commands.set(*self._actuators.commands(actuators.controls))
-        stray = self._actuators.look_for_stray(actuators.controls)
-        if stray is not None:
-            self._surroundings.report(
-                f'output {stray}', f'PX4 moves output {stray}, which drives nothing'
-            )
+        self._drive(actuators.controls)
 
     # ---- when it does not answer -----------------------------------------------------------
 

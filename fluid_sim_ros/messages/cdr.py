@@ -57,6 +57,14 @@ class CdrReader:
         offset = self._take(8 * length, 8)
         return np.frombuffer(self._data, self._order + 'f8', length, offset)
 
+    def array32(self, kind: str) -> Array:
+        """Return a sequence of four-byte numbers: ``kind`` is f4 or i4."""
+        length = self.uint32()
+        if length == 0:
+            return np.empty(0)
+        offset = self._take(4 * length, 4)
+        return np.frombuffer(self._data, self._order + kind, length, offset).astype(np.float64)
+
     def float64_sequence(self) -> Array:
         """Return a sequence of doubles."""
         return self.float64_array(self.uint32())
@@ -124,6 +132,14 @@ def read_joint_state(data: bytes) -> JointStateCommand:
         reader.float64_sequence(),
         reader.float64_sequence(),
     )
+
+
+def read_joy(data: bytes) -> tuple[Array, Array]:
+    """Return the axes and buttons of a sensor_msgs/Joy."""
+    reader = CdrReader(data)
+    reader.stamp_ns()
+    reader.string()
+    return reader.array32('f4'), reader.array32('i4')
 
 
 def read_stamped_pair(data: bytes) -> PairCommand:

@@ -11,6 +11,7 @@ from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.messages.cdr import (
     read_float64_multi_array,
     read_joint_state,
+    read_joy,
     read_stamped_pair,
 )
 from fluid_sim_ros.scene_schema import ScheduledEvent
@@ -24,6 +25,7 @@ MULTI_ARRAY = 'std_msgs/msg/Float64MultiArray'
 JOINT_STATE = 'sensor_msgs/msg/JointState'
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 TWIST = 'geometry_msgs/msg/TwistStamped'
+JOY = 'sensor_msgs/msg/Joy'
 
 #: What ``Commands`` looks at, as the node's parameters of the same names.
 DEFAULTS = {'thrust.unit': 'newton', 'pacing': 'free', 'lockstep.match': 'stamp'}
@@ -211,6 +213,19 @@ class Commands:
             return Effect()
 
         return apply
+
+
+def sticks_topic(
+    vehicle: str, set_sticks: Callable[[list[float], list[float]], None]
+) -> CommandTopic:
+    """Return the topic of the sticks with which a person flies an autopilot's vehicle."""
+
+    def apply(data: bytes) -> Effect:
+        axes, buttons = read_joy(data)
+        set_sticks(axes.tolist(), buttons.tolist())
+        return Effect()
+
+    return CommandTopic(f'{vehicle}/cmd/sticks', JOY, apply)
 
 
 def _by_name(vehicle: Vehicle, names: list[str], values: Array) -> Array:

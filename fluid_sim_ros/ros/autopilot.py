@@ -5,6 +5,7 @@ from typing import Any
 
 from fluid_sim_ros.autopilot import AutopilotOptions, Bridge, Surroundings, open_bridge
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.messages.commands import sticks_topic
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.simulation import Simulation
 
@@ -62,8 +63,12 @@ def start_autopilot(
             name: settings[f'autopilot.{name}']
             for name in (
                 'protocol', 'vehicle', 'mapping', 'instance', 'port', 'address', 'timeout',
+                'sticks_timeout',
             )
         }
     )  # fmt: skip
     log = CommandTap(inputs) if settings['record'] else None
-    return open_bridge(simulation, options, Surroundings(report, reset, log))
+    bridge = open_bridge(simulation, options, Surroundings(report, reset, log))
+    if bridge.takes_sticks:
+        inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
+    return bridge

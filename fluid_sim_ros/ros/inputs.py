@@ -10,12 +10,13 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, Joy
 from std_msgs.msg import Float64MultiArray
 
 from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
 from fluid_sim_ros.messages.commands import (
     JOINT_STATE,
+    JOY,
     MULTI_ARRAY,
     TWIST,
     WRENCH,
@@ -30,7 +31,7 @@ from fluid_sim_ros.simulation import Simulation
 
 _MESSAGES: dict[str, type] = {
     MULTI_ARRAY: Float64MultiArray, JOINT_STATE: JointState, WRENCH: WrenchStamped,
-    TWIST: TwistStamped,
+    TWIST: TwistStamped, JOY: Joy,
 }  # fmt: skip
 
 #: Topics of which every message counts in lockstep by count.
@@ -80,7 +81,7 @@ class Inputs:
         self.stale = StaleCommands(simulation, settings, report)
         self.inputs: list[Input] = []
         for topic in Commands(simulation, settings).topics:
-            self._add(topic)
+            self.add(topic)
         self._choose_awaited(simulation, settings['lockstep.wait_for'])
         self._guard = node.create_guard_condition(lambda: None, callback_group=self._group)
         self._wait_set = _rclpy.WaitSet(len(self.inputs), 1, 0, 0, 0, 0, node.context.handle)
@@ -92,7 +93,8 @@ class Inputs:
 
     # ---- topics ----------------------------------------------------------------------------
 
-    def _add(self, topic: CommandTopic) -> None:
+    def add(self, topic: CommandTopic) -> None:
+        """Take commands on one more topic."""
         message = _MESSAGES[topic.type]
         keep_all = self._by_count and topic.name.endswith(_COUNTED)
         history = HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST

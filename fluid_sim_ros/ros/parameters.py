@@ -115,6 +115,12 @@ TABLE: dict[str, Declared] = {
     'autopilot.timeout': Declared(
         1.0, '[s] wall time without an answer after which it counts as gone', low=0.01, high=3600
     ),
+    'autopilot.sticks_timeout': Declared(
+        0.5,
+        '[s] wall time without a message on <v>/cmd/sticks after which the radio is lost; 0 = off',
+        low=0,
+        high=3600,
+    ),
     'markers.rate': Declared(20.0, '[Hz] of wall time', low=0.1, high=100),
 }
 

@@ -36,7 +36,7 @@ class Rules:
     """What PX4 asks of HIL_SENSOR, checked message by message."""
 
     def __init__(self) -> None:
-        self.time = 0
+        self.first = self.time = 0  # [us]
         self.counts = dict.fromkeys(GROUPS, 0)
         self.last: dict[str, tuple] = {}
         self.still = dict.fromkeys(GROUPS, 0)
@@ -44,6 +44,7 @@ class Rules:
     def check(self, message: dict) -> None:
         assert message['time_usec'] > self.time, 'time must go on'
         self.time = message['time_usec']
+        self.first = self.first or self.time
         assert message['id'] == 0
         bits = message['fields_updated']
         groups = {name for name, mask in GROUPS.items() if bits & mask}

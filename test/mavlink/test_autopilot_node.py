@@ -10,6 +10,7 @@ from geometry_msgs.msg import TwistStamped
 from harness import Peer, node, stamp_ns, wait_until
 from nav_msgs.msg import Odometry
 from px4_stand_in import Px4, Quad
+from sensor_msgs.msg import Joy
 from std_srvs.srv import Trigger
 
 from fluid_sim_ros.recording.reader import open_log
@@ -31,11 +32,13 @@ class Pilot(threading.Thread):
         self._fly(self.done)
 
 
-def fly_px4(port):
+def fly_px4(port, heard=None):
     def fly(done):
         px4, quad, controls = Px4(port), Quad((0.0, 0.0, -2.0), 0.77), [0.0] * 4
         while not done.is_set():
             controls = quad.controls(px4, px4.exchange(controls))
+            if heard is not None:
+                heard.update(px4.latest)
         px4.close()
 
     return Pilot(fly)
@@ -83,6 +86,32 @@ def test_a_node_that_an_autopilot_flies(tmp_path, protocol, fly):
     assert outcome.commands > 200
     assert outcome.compared > 1000
     assert outcome.difference is None
+
+
+def test_sticks_on_a_topic_reach_px4(tmp_path):
+    log, port, heard = tmp_path / 'flight.mcap', free_port('px4'), {}
+    settings = {
+        'scene': 'x500_ground', 'pacing': 'realtime', 'record': log,
+        'autopilot.protocol': 'px4', 'autopilot.port': port, 'autopilot.sticks_timeout': 0.0,
+    }  # fmt: skip
+    with Peer() as peer, node(**settings) as process:
+        peer.watch_diagnostics()
+        wait_until(lambda: 'autopilot' in peer.diagnostics, 'diagnostics')
+        sticks, pilot = peer.publisher(Joy, 'x500/cmd/sticks'), fly_px4(port, heard)
+        sticks.publish(Joy(axes=[float('nan')]))
+        wait_until(lambda: 'holds a value that is not finite' in process.output, 'the refusal')
+        sticks.publish(Joy(axes=[0.0, 0.25, -1.0], buttons=[0, 1]))
+        wait_until(lambda: heard.get('RC_CHANNELS', {}).get('chan2_raw') == 1625, 'sticks')
+        pilot.done.set()
+        pilot.join()
+        process.signal(signal.SIGINT)
+        assert process.wait() == 0
+    assert [heard['RC_CHANNELS'][f'chan{i}_raw'] for i in range(1, 6)] == [
+        1500, 1625, 1000, 1000, 2000
+    ]  # fmt: skip
+    kept = open_log(log)
+    assert kept.topic('/x500/cmd/sticks').type == 'sensor_msgs/msg/Joy'
+    assert sum(message.topic == '/x500/cmd/sticks' for message in kept.messages()) == 2
 
 
 @pytest.mark.parametrize(

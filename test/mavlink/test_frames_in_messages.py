@@ -14,6 +14,7 @@ from fluid_sim_ros.mavlink.hil_messages import HilCodec
 from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.json_packets import write_state
 from fluid_sim_ros.mavlink.mapping import load_mapping
+from fluid_sim_ros.mavlink.sticks import Sticks
 
 #: Heading north, level: east, north, up of the nose and so on.
 NORTH = np.array([math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)])
@@ -81,7 +82,7 @@ def messages(scene, case, height):
     simulation = placed(scene, case, height)
     (vehicle,) = simulation.vehicles
     file, _ = load_mapping('px4', vehicle)
-    state, codec = HilState(simulation, vehicle, file), HilCodec()
+    state, codec = HilState(simulation, vehicle, file, Sticks((), 0.0)), HilCodec()
     found = {}
     for step in (2, 4, 6, 50):  # the magnetometer is due at 6, the receiver at 50
         simulation._step = step

@@ -8,13 +8,14 @@ from geometry_msgs.msg import TwistStamped, WrenchStamped
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, Joy
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import (
     read_float64_multi_array,
     read_joint_state,
+    read_joy,
     read_stamped_pair,
 )
 
@@ -60,6 +61,19 @@ def test_stamped_pairs_read_what_was_written(stamp, frame, numbers):
         np.testing.assert_array_equal(np.concatenate([command.first, command.second]), numbers)
 
 
+@given(
+    st.lists(st.floats(allow_nan=False, width=32), max_size=9),
+    st.lists(st.integers(-(2**31), 2**31 - 1), max_size=5),
+    text,
+)
+def test_joy_reads_what_was_written(axes, buttons, frame):
+    message = Joy(axes=axes, buttons=buttons)
+    message.header.frame_id = frame
+    read_axes, read_buttons = read_joy(serialize_message(message))
+    np.testing.assert_array_equal(read_axes, axes)
+    np.testing.assert_array_equal(read_buttons, buttons)
+
+
 def test_big_endian_is_read():
     header = b'\x00\x00\x00\x00'
     body = struct.pack('>III', 0, 0, 1) + b'\x00' * 4 + struct.pack('>d', 2.5)
@@ -72,6 +86,7 @@ def test_big_endian_is_read():
         (read_float64_multi_array, Float64MultiArray(data=[1.0, 2.0])),
         (read_joint_state, JointState(name=['a', 'b'], effort=[1.0, 2.0])),
         (read_stamped_pair, WrenchStamped()),
+        (read_joy, Joy(axes=[1.0, 2.0], buttons=[1])),
     ],
 )
 def test_a_message_cut_anywhere_is_refused(read, message):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fluid_sim_ros.messages.commands import JOINT_STATE, MULTI_ARRAY, TWIST, WRENCH
+from fluid_sim_ros.messages.commands import JOINT_STATE, JOY, MULTI_ARRAY, TWIST, WRENCH
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import CLOCK, DEFAULTS, ODOMETRY
 from fluid_sim_ros.ros.parameters import TABLE
@@ -24,7 +24,7 @@ def test_the_kept_definitions_are_those_of_the_installed_ros():
     assert kept == script.collect()
 
 
-@pytest.mark.parametrize('name', [JOINT_STATE, MULTI_ARRAY, TWIST, WRENCH, CLOCK, ODOMETRY])
+@pytest.mark.parametrize('name', [JOINT_STATE, MULTI_ARRAY, JOY, TWIST, WRENCH, CLOCK, ODOMETRY])
 def test_every_type_in_use_has_a_definition(name):
     assert definition(name).hash.startswith('RIHS01_')
 

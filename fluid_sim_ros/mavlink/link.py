@@ -1,0 +1,100 @@
+"""What every bridge shares: outputs that become commands, faults, and what is shown of both."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import Any, ClassVar, Literal
+
+from fluid_sim_ros.autopilot import AutopilotOptions, BridgeStatus, Surroundings, VehicleCommands
+from fluid_sim_ros.errors import CommandError
+from fluid_sim_ros.mavlink.counters import Counters
+from fluid_sim_ros.mavlink.mapping import ActuatorMap
+from fluid_sim_ros.simulation import Simulation
+
+#: Longest wait for an autopilot at a time [s], so that requests of other threads are served.
+SLICE = 0.05
+
+#: Level and line of a status.
+Trouble = tuple[Literal['warn', 'error'], str]
+
+
+class AutopilotLink(ABC):
+    """
+    One autopilot at one vehicle, whatever protocol it speaks.
+
+    Parameters
+    ----------
+    simulation, options, surroundings
+        As for ``autopilot.open_bridge``.
+    actuators
+        What its outputs drive.
+
+    Attributes
+    ----------
+    vehicle
+        Name of the vehicle.
+    counters
+        What has happened.
+
+    """
+
+    #: What people call it, and its protocol in options.
+    name: ClassVar[str]
+    protocol: ClassVar[str]
+    #: Whether ``set_sticks`` is of use.
+    takes_sticks: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        options: AutopilotOptions,
+        surroundings: Surroundings,
+        actuators: ActuatorMap,
+    ) -> None:
+        self.vehicle = options.vehicle
+        self.counters = Counters()
+        self._surroundings = surroundings
+        self._timeout = options.timeout
+        self._actuators = actuators
+        self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
+        self._outputs: Sequence[float] = ()
+
+    def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
+        """Take the sticks of a radio control; raises CommandError here."""
+        raise CommandError(f'{self.name} takes its sticks from a ground station')
+
+    def status(self) -> BridgeStatus:
+        """Return what to show people."""
+        counters = self.counters
+        values = {
+            'protocol': self.protocol, **self._values(),
+            'last_outputs': [round(value, 3) for value in self._outputs],
+            'saturated': self._commands.saturated, **counters.values(),
+        }  # fmt: skip
+        trouble = self._trouble()
+        if trouble is None and counters.malformed:
+            line = f'{counters.malformed} malformed messages, last: {counters.last_fault}'
+            trouble = 'warn', line
+        level, line = trouble or ('ok', 'in lockstep')
+        return BridgeStatus(level, line, values)
+
+    @abstractmethod
+    def _values(self) -> dict[str, Any]:
+        """Return the numbers of the protocol."""
+
+    @abstractmethod
+    def _trouble(self) -> Trouble | None:
+        """Return what keeps it from lockstep, or None."""
+
+    def _drive(self, outputs: Sequence[float]) -> None:
+        """Command what the outputs drive; one that moves and drives nothing is reported."""
+        self._outputs = outputs
+        self._commands.set(*self._actuators.commands(outputs))
+        stray = self._actuators.look_for_stray(outputs)
+        if stray is not None:
+            line = f'{self.name} moves output {stray}, which drives nothing'
+            self._surroundings.report(f'output {stray}', line)
+
+    def _malformed(self, fault: str) -> None:
+        """Count and report what could not be read."""
+        self.counters.fault(fault)
+        self._surroundings.report('malformed', f'{self.name}: {fault}')
