@@ -158,11 +158,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or '').strip().split('\n')[0])
     parser.add_argument('--out', type=Path, default=OUT, help='folder of the pictures')
     parser.add_argument('--json', type=Path, help='also write name and size of each file')
+    parser.add_argument('--only', nargs='+', choices=SHOTS, metavar='SCENE', help='these scenes')
     parser.add_argument('--quick', action='store_true', help='only the first scene')
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     sizes = {}
-    for name in list(SHOTS)[: 1 if options.quick else None]:
+    for name in options.only or list(SHOTS)[: 1 if options.quick else None]:
         path = options.out / f'{name}.png'
         still(name).save(path, optimize=True)
         sizes[name] = path.stat().st_size

@@ -112,6 +112,22 @@ class Copter:
         return padded([round(1000 + 1000 * min(max(s, 0.0), 1.0)) for s in shares])
 
 
+class Plane:
+    """Takes off at full throttle and climbs along its heading; SERVO1 to 4 as by default."""
+
+    def __init__(self, climb: float = 0.17) -> None:
+        self.climb = climb  # [rad] nose up
+
+    def pulses(self, state: dict[str, list[float]]) -> list[int]:
+        roll, pitch, yaw = state['attitude']
+        p, q, r = state['gyro']
+        aileron = clipped(-1.5 * roll - 0.4 * p)  # > 0 rolls right
+        elevator = clipped(0.3 + 1.5 * (self.climb - pitch) - 0.5 * q)  # > 0 pitches up
+        rudder = clipped(0.8 * math.remainder(math.pi / 2 - yaw, math.tau) - 0.3 * r)
+        sticks = [round(1500 + 400 * share) for share in (aileron, elevator, rudder)]
+        return padded([sticks[0], sticks[1], 2000, sticks[2]])
+
+
 class Submarine:
     """Holds a depth [m], a heading and a level attitude, and a forward demand."""
 

@@ -254,6 +254,27 @@ class Quad:
         return commands
 
 
+class Plane:
+    """Takes off at full throttle and climbs along its heading; outputs as in 1030."""
+
+    def __init__(self, climb: float = 0.17) -> None:
+        self.climb = climb  # [rad] nose up
+        self.estimate = Estimate()
+
+    def controls(self, px4: Px4, sensors: dict) -> list[float]:
+        state = self.estimate
+        state.update(px4, sensors)
+        roll, pitch, yaw = angles(state.quat)
+        p, q, r = state.rates
+        aileron = clipped(-1.5 * roll - 0.4 * p, 1)  # > 0 rolls right
+        elevator = clipped(0.3 + 1.5 * (self.climb - pitch) - 0.5 * q, 1)  # > 0 pitches up
+        rudder = clipped(0.8 * math.remainder(math.pi / 2 - yaw, math.tau) - 0.3 * r, 1)
+        outputs = [0.0] * 16
+        outputs[2], outputs[4] = rudder, 1.0
+        outputs[3], outputs[6], outputs[7] = -aileron, aileron, elevator
+        return outputs
+
+
 class Submarine:
     """Holds a depth, a heading and a level attitude; allocation by the inverse of the geometry."""
 

@@ -13,6 +13,7 @@ from ardupilot_stand_in import (
     VECTORED_6DOF,
     Copter,
     Link,
+    Plane,
     Submarine,
     padded,
 )
@@ -300,6 +301,20 @@ def test_a_copter_takes_off_and_holds_its_place(flight, link):
         state = link.exchange(copter.pulses(state))
     assert state['position'] == pytest.approx([2.0, 1.0, -3.0], abs=0.03)
     assert [math.degrees(a) for a in state['attitude']] == pytest.approx([0, 0, 90], abs=0.5)
+
+
+def test_an_aircraft_waits_on_its_wheels_and_takes_off():
+    with Flight('aerosonde_ground', 'ardupilot').running() as flight:
+        link, plane = Link(flight.port), Plane()
+        for _ in range(400):
+            state = link.exchange(padded([1500, 1500, 1000, 1500]))
+        assert state['position'] == pytest.approx([0, 0, -0.4145], abs=1e-3)
+        for _ in range(4800):
+            state = link.exchange(plane.pulses(state))
+        north, east, down = state['position']
+        assert down < -30.0
+        assert east > 200.0
+        assert abs(north) < 20.0
 
 
 @pytest.mark.parametrize(

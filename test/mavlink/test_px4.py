@@ -9,7 +9,7 @@ import time
 import hil_wire
 import pytest
 from autopilot_peers import Flight, waited
-from px4_stand_in import Px4, Quad, Submarine
+from px4_stand_in import Plane, Px4, Quad, Submarine
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.mavlink import px4 as px4_bridge
@@ -403,6 +403,24 @@ def test_a_quadrotor_takes_off_and_holds_its_place(flight, monkeypatch):
     position = flight.simulation.data.qpos[:3]  # east, north, up
     assert position == pytest.approx([1.0, 2.0, 3.13], abs=0.1)
     assert flight.bridge.counters.missed == 0
+
+
+def test_an_aircraft_waits_on_its_wheels_and_takes_off(monkeypatch):
+    monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.004)
+    with Flight('aerosonde_ground', 'px4').running() as flight:
+        px4, plane = Px4(flight.port, silent=15), Plane()
+        for _ in range(250):
+            px4.exchange([0.0] * 16, armed=False)
+        east, north, up = flight.simulation.data.qpos[:3]
+        assert (east, north, up) == pytest.approx((0, 0, 0.4145), abs=1e-3)
+        controls = [0.0] * 16
+        for _ in range(3000):
+            controls = plane.controls(px4, px4.exchange(controls))
+        east, north, up = flight.simulation.data.qpos[:3]
+        assert up > 30.0
+        assert east > 200.0
+        assert abs(north) < 20.0
+        assert flight.bridge.counters.missed == 0
 
 
 def test_a_submarine_dives_turns_and_goes_ahead(monkeypatch):
