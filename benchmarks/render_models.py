@@ -26,7 +26,7 @@ from fluid_sim_ros.recording.water import add_waves
 OUT = Path(__file__).parents[1] / 'doc' / 'img'
 WIDTH, HEIGHT = 640, 480
 #: Colours per picture; keeps each file below 100 kB.
-COLORS = 128
+COLORS = 256
 
 Gait = Callable[[float], list[float]]
 SWIM: JointWave = travelling_wave(5, amplitude=0.5, frequency=1.0, lag=1.0)
@@ -99,7 +99,9 @@ def still(name: str) -> Image.Image:
         add_waves(renderer.scene, model, data, data.xpos[1], 1.0)
         pixels = renderer.render()
     picture = Image.fromarray(np.asarray(pixels)).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
-    return picture.quantize(COLORS, dither=Image.Dither.FLOYDSTEINBERG)
+    # by octree: small parts keep their colours before a large sky
+    colors = picture.quantize(COLORS, Image.Quantize.FASTOCTREE)
+    return picture.quantize(palette=colors, dither=Image.Dither.FLOYDSTEINBERG)
 
 
 def run(simulation: Simulation, shot: Shot) -> Iterator[tuple[np.ndarray, np.ndarray]]:
