@@ -70,7 +70,6 @@ class Errors:
             for (c, count), (low, high) in zip(channels, limits, strict=True)
             for _ in range(count)
         ]
-        self._random = bool(self._white.any() or self._walk.any() or self._dither.any())
         entropy = [seed % (1 << 64), *name.encode()]
         self._key = np.random.SeedSequence(entropy).generate_state(2, np.uint64)
         self._block = -1
@@ -80,22 +79,19 @@ class Errors:
 
     def apply(self, index: int, values: Array) -> int:
         """Turn the true values of reading ``index`` into readings; return how many saturated."""
-        numbers = values.tolist()
-        if self._random:
-            block, place = divmod(index, BLOCK)
-            if block != self._block:
-                self._draw(block)
-            numbers = [n + a for n, a in zip(numbers, self._added[place], strict=True)]
-        beyond = 0
-        for i, (quantum, low, high, below, above) in enumerate(self._axes):
-            if quantum and math.isfinite(numbers[i]):
-                numbers[i] = round(numbers[i] / quantum) * quantum
-            if numbers[i] < low:
-                numbers[i] = below
+        block, place = divmod(index, BLOCK)
+        if block != self._block:
+            self._draw(block)
+        numbers, beyond = values.tolist(), 0
+        for i, (added, axis) in enumerate(zip(self._added[place], self._axes, strict=True)):
+            quantum, low, high, below, above = axis
+            number = numbers[i] + added
+            if quantum and -math.inf < number < math.inf:
+                number = round(number / quantum) * quantum
+            if number < low or number > high:
+                number = below if number < low else above
                 beyond += 1
-            elif numbers[i] > high:
-                numbers[i] = above
-                beyond += 1
+            numbers[i] = number
         values[:] = numbers
         return beyond
 
