@@ -3,14 +3,14 @@ What recording costs the node: free pacing, 100 Hz topics, computed and publishe
 
 One node flies on and on, in blocks of about a tenth of a second of wall time, by turns with and
 without its recorder (off, on, on, off, ...); it publishes the same topics in both. The time of a
-recorded block includes the wait until the writer process has nothing left to do, and that process is
-halted in the other blocks, so that none of its work goes uncharged. The cost is the share of the
-real-time factor that a recorded block loses against its neighbour: the median over all pairs, its
-standard error and the quartiles (a pair of blocks is short beside the changes of a busy machine).
-At each tick the node also gets a thrust command, as the bytes that DDS would hand over, and applies it;
-commands are always recorded. Targets: 10 % with RK4 and 15 % with implicitfast for odometry, total
-wrench, IMU, clock and commands. Also: size per simulated minute beside a plain writer that does not
-compress, and the memory of simulation and writer along an hour of flight.
+recorded block includes the wait until the writer process has nothing left to do, and that process
+is halted in the other blocks, so that none of its work goes uncharged. The cost is the share of
+the real-time factor that a recorded block loses against its neighbour: the median over all pairs,
+its standard error and the quartiles (pairs are short beside the changes of a busy machine).
+At each tick the node also gets a thrust command, as the bytes that DDS would hand over, and
+applies it; commands are always recorded. Targets: 10 % with RK4 and 15 % with implicitfast for
+odometry, total wrench, IMU, clock and commands. Also: size per simulated minute beside a plain
+writer that does not compress, and the memory of simulation and writer along an hour of flight.
 """
 
 import json
@@ -52,7 +52,8 @@ NODE = textwrap.dedent("""
     from std_msgs.msg import Float64MultiArray
     from fluid_sim_ros import runner
     from fluid_sim_ros.ros import inputs, node, outputs, session
-    patterns, blocks, seconds = sys.argv.pop(1).split(), int(sys.argv.pop(1)), float(sys.argv.pop(1))
+    patterns, blocks = sys.argv.pop(1).split(), int(sys.argv.pop(1))
+    seconds = float(sys.argv.pop(1))
     refresh = outputs.Outputs.refresh
     def published(self):
         refresh(self)

@@ -90,7 +90,7 @@ def _build_parser() -> argparse.ArgumentParser:
     run.add_argument('--record', metavar='PATH', help='record to PATH.mcap, or a folder: a bag')
     run.add_argument(
         '--record-topics', metavar='PATTERN', nargs='+', default=['*'],
-        help='shell patterns of the topics to record (default all)',
+        help='shell patterns of the topics to record, !PATTERN: not these (default all)',
     )  # fmt: skip
     cli_autopilot.add_options(run)
 

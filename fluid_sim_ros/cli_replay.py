@@ -65,7 +65,7 @@ def replay(arguments: argparse.Namespace, show: Show) -> int:
 def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     from fnmatch import fnmatchcase
 
-    from fluid_sim_ros.recorder_tap import RecordedTopic
+    from fluid_sim_ros.recording.rosbag2 import recorded_topic
     from fluid_sim_ros.ros import replay as ros
     from fluid_sim_ros.ros.preflight import check_domain
 
@@ -73,7 +73,7 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     options = ros.ReplayOptions(arguments.rate, arguments.loop, arguments.paused)
     begin, end = arguments.begin * 1e9, arguments.end * 1e9
     chosen = [
-        RecordedTopic(t.name, t.type)
+        recorded_topic(t.name, t.type, t.metadata)
         for t in log.topics.values()
         if any(fnmatchcase(t.name, pattern) for pattern in arguments.topics)
     ]

@@ -25,7 +25,7 @@ from fluid_sim_ros.simulation import Simulation
 
 #: What is kept is sent when it is this large [bytes] or this old [s]; smaller portions would wake
 #: the writer more often than it has to be.
-_PORTION, _AGE = 1 << 16, 0.02
+_PORTION, _AGE = 1 << 18, 0.02
 #: Size asked of the pipe [bytes]; Linux grants 1 MiB without privilege.
 _PIPE_SIZE = 1 << 20
 #: Longest wait for the writer to end a file [s]; it may have to bring the queue to a slow disk.

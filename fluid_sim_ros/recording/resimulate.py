@@ -12,7 +12,6 @@ from typing import Any
 
 import mujoco
 
-from fluid_sim_ros.schedule import NEVER, exact
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, listed
 from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
@@ -24,6 +23,7 @@ from fluid_sim_ros.recording.compare import Difference, compare
 from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.reader import Log, LogMessage
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.schedule import NEVER, exact
 from fluid_sim_ros.simulation import Simulation
 
 #: What ``changes`` may name. A wind or current holds for the whole flight, in place of those that

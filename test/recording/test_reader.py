@@ -63,7 +63,7 @@ def flattened(message, prefix=''):
         value, name = getattr(message, name), f'{prefix}{name}'
         if isinstance(value, str | int | float):
             found[name] = value
-        elif isinstance(value, list | tuple | np.ndarray):
+        elif isinstance(value, bytes | list | tuple | np.ndarray):
             for i, item in enumerate(value):
                 plain = isinstance(item, str | int | float | np.number)
                 part = {f'{name}[{i}]': item} if plain else flattened(item, f'{name}[{i}].')
