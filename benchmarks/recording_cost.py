@@ -240,7 +240,7 @@ def main() -> None:
             print(f'{result["memory"]["simulated_s"]:g} s: {result["memory"]["writer_mib"]} MiB')
             continue
         topics, integrator = _PARTS[part]
-        this = cost(integrator, SETS[topics], 40 if options.quick else 400)
+        this = cost(integrator, SETS[topics], 40 if options.quick else 200)
         result['costs'][f'{topics}; {integrator}'] = this
         low, high = this['quartiles']
         print(
