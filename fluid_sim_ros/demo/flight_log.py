@@ -29,9 +29,10 @@ _FIELDS = {
     'medium/wind': [f'twist.linear.{axis}' for axis in 'xyz'],
     'joint_states': [f'effort[{rotor}]' for rotor in range(4)],
 }
-#: What is read, and what the demo's simulator records: viewers place the vehicle by /tf.
+#: What is read, and what the demo's simulator records: the still shows the thrust, and viewers
+#: the markers, which they place by /tf.
 _READ = tuple(f'{VEHICLE}/{leaf}' for leaf in _FIELDS)
-TOPICS = (*_READ, '/tf')
+TOPICS = (*_READ, f'{VEHICLE}/wrench/thrust', f'{VEHICLE}/markers', '/tf')
 
 Array = NDArray[np.float64]
 

@@ -98,6 +98,8 @@ class Session:
         self._close_bridge()
         if self.tap is not None:
             self.tap.close()
+            if self.tap.fault:
+                self._report('recording', self.tap.fault)
         self.inputs.destroy()
         self.outputs.destroy()
         self._diagnostics.destroy()

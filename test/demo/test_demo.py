@@ -39,7 +39,9 @@ def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixt
     assert 0.5 < result['largest_fluid_force_n'] < 1.2
     assert 10.0 <= result['largest_fluid_force_at_s'] <= 12.0
     # 5 state topics at 100 Hz and /tf at 50 Hz, every message of them flown again
-    assert result['log']['identical'] and result['log']['states_resimulated'] == 5 * 1201 + 601
+    assert (
+        result['log']['identical'] and result['log']['states_resimulated'] == 6 * 1201 + 601 + 241
+    )
     assert result['log']['commands'] == 1200
     for name in ('trajectory.png', 'wrench.png', 'still.png'):
         assert (out / name).read_bytes().startswith(b'\x89PNG')
