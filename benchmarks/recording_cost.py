@@ -1,7 +1,7 @@
 """
 What recording costs the node: free pacing, 100 Hz topics, computed and published in both cases.
 
-One node flies on and on, in blocks of about a tenth of a second of wall time, by turns with and
+One node flies on and on, in blocks of a few tenths of a second of wall time, by turns with and
 without its recorder (off, on, on, off, ...); it publishes the same topics in both. The time of a
 recorded block includes the wait until the writer process has nothing left to do, and that process
 is halted in the other blocks, so that none of its work goes uncharged. The cost is the share of
@@ -39,8 +39,9 @@ SETS = {
     'odom, wrench/total, imu, clock, commands': STATES,
     'every state topic, commands': ['*'],
 }
-#: Simulated time of a block [s]: about a tenth of a second of wall time.
-BLOCKS = {'RK4': 5.0, 'implicitfast': 10.0}
+#: Simulated time of a block [s]: a few tenths of a second of wall time, in which the wait for the
+#: writer (some milliseconds) weighs little.
+BLOCKS = {'RK4': 15.0, 'implicitfast': 30.0}
 
 # The node with every chosen topic published as if somebody subscribed, a thrust command at every
 # tick, and its loop run in blocks that are timed. Prints [recorded, wall and processor time of the
@@ -240,7 +241,7 @@ def main() -> None:
             print(f'{result["memory"]["simulated_s"]:g} s: {result["memory"]["writer_mib"]} MiB')
             continue
         topics, integrator = _PARTS[part]
-        this = cost(integrator, SETS[topics], 40 if options.quick else 200)
+        this = cost(integrator, SETS[topics], 20 if options.quick else 100)
         result['costs'][f'{topics}; {integrator}'] = this
         low, high = this['quartiles']
         print(
