@@ -218,6 +218,9 @@ def memory(seconds: float) -> dict[str, Any]:
         'megabytes': size,
         'simulation_mib': [round(own, 1) for own, _ in samples],
         'writer_mib': [round(other, 1) for _, other in samples],
+        # from the first tenth of the flight to its end
+        'simulation_growth_mib': round(samples[-1][0] - samples[0][0], 1),
+        'writer_growth_mib': round(samples[-1][1] - samples[0][1], 1),
     }
 
 
