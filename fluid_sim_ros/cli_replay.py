@@ -11,7 +11,7 @@ from fluid_sim_ros.cli_shared import Show
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
-    from fluid_sim_ros.recording.reader import Log
+    from fluid_sim_ros.recording.log import Log
 
 
 #: Exit code where the log is damaged or a state differs.

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from fluid_sim_ros.demo.summary import VEHICLE, Recording, gust_of_scene
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.decode import columns
-from fluid_sim_ros.recording.reader import Log, LogMessage, open_log
+from fluid_sim_ros.recording.log import Log, LogMessage
+from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.resimulate import resimulate
 
 #: Simulated time of the still [s]: leaning into the gust.

@@ -14,7 +14,7 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.film_file import KINDS, Picture, film_file
-from fluid_sim_ros.recording.reader import Log
+from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.tracks import Track, read_tracks
 from fluid_sim_ros.recording.water import add_waves
 from fluid_sim_ros.simulation import Simulation

@@ -35,7 +35,7 @@ def chunked(flight, tmp_path_factory):
     path = tmp_path_factory.mktemp('log') / 'chunked.mcap'
     repair(flight, path, chunk_size=1 << 14)
     log = open_log(path)
-    assert len(log._chunks) > 10 and log.complete and not log.faults
+    assert len(log.chunks) > 10 and log.complete and not log.faults
     return path.read_bytes(), list(log.messages())
 
 
@@ -153,7 +153,7 @@ def test_one_damaged_chunk_costs_that_chunk_only(tmp_path, chunked):
     content, messages = chunked
     path = tmp_path / 'bad.mcap'
     path.write_bytes(content)
-    chunk = open_log(path)._chunks[4]
+    chunk = open_log(path).chunks[4]
 
     def damaged(at):
         bad = bytearray(content)
