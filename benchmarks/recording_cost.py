@@ -1,7 +1,7 @@
 """
 What recording costs the node: free pacing, 100 Hz topics, computed and published in both cases.
 
-One node flies on and on, in blocks of a few tenths of a second of wall time, by turns with and
+One node flies on and on, in blocks of about a fifth of a second of wall time, by turns with and
 without its recorder (off, on, on, off, ...); it publishes the same topics in both. The writer
 process is halted in the blocks without. The cost is the share of the real-time factor that a
 recorded block loses against its neighbour: the median over all pairs, its standard error and the
@@ -40,9 +40,9 @@ SETS = {
     'odom, wrench/total, imu, clock, commands': STATES,
     'every state topic, commands': ['*'],
 }
-#: Simulated time of a block [s]: a few tenths of a second of wall time, so that little of the
+#: Simulated time of a block [s]: about a fifth of a second of wall time, so that little of the
 #: writer's work is left to the wait.
-BLOCKS = {'RK4': 15.0, 'implicitfast': 30.0}
+BLOCKS = {'RK4': 8.0, 'implicitfast': 15.0}
 
 # The node with every chosen topic published as if somebody subscribed, a thrust command at every
 # tick, and its loop run in blocks that are timed. Prints, for each block and per simulated second,
@@ -249,7 +249,7 @@ def main() -> None:
             print(f'{result["memory"]["simulated_s"]:g} s: {result["memory"]["writer_mib"]} MiB')
             continue
         topics, integrator = _PARTS[part]
-        this = cost(integrator, SETS[topics], 20 if options.quick else 100)
+        this = cost(integrator, SETS[topics], 20 if options.quick else 160)
         result['costs'][f'{topics}; {integrator}'] = this
         low, high = this['quartiles']
         print(
