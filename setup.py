@@ -151,7 +151,9 @@ setup(
     license='Apache-2.0',
     python_requires='>=3.11,<3.13',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['py.typed', 'messages/*.json', 'recording/*.html', 'lab/*.html']},
+    package_data={
+        PACKAGE: ['py.typed', '*.css', '*.js', '*/*.html', 'messages/*.json'],
+    },
     ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
     cmdclass={'build_ext': BuildPluginLibrary},
     data_files=[

@@ -20,7 +20,7 @@ from fluid_sim_ros import (
     cli_vehicle,
 )
 from fluid_sim_ros.cli_shared import Show, add_command, write_json
-from fluid_sim_ros.errors import DivergedError, FluidSimError
+from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
 from fluid_sim_ros.extras import needed_for
 
 if TYPE_CHECKING:
@@ -89,8 +89,8 @@ def _build_parser() -> argparse.ArgumentParser:
     run.add_argument('--pacing', choices=('free', 'realtime'), default='free')
     run.add_argument('--record', metavar='PATH', help='record to PATH.mcap, or a folder: a bag')
     run.add_argument(
-        '--record-topics', metavar='PATTERN', nargs='+', default=['*'],
-        help='shell patterns of the topics to record (default all)',
+        '--record-topics', metavar='PATTERN', nargs='+',
+        help='shell patterns of the topics to record, !PATTERN: not these (default all)',
     )  # fmt: skip
     cli_autopilot.add_options(run)
 
@@ -114,6 +114,8 @@ def _build_parser() -> argparse.ArgumentParser:
 def _run(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.headless import run_scene, summary_table
 
+    if arguments.record_topics and not arguments.record:
+        raise ConfigError('--record-topics needs --record PATH')
     result = run_scene(
         arguments.scene,
         duration=arguments.duration,
@@ -125,7 +127,7 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
         current=arguments.current,
         realtime=arguments.pacing == 'realtime',
         record=arguments.record,
-        record_topics=arguments.record_topics,
+        record_topics=arguments.record_topics or ['*'],
         autopilot=cli_autopilot.chosen_run(arguments),
     )
     show(arguments.json, summary_table(result), result)

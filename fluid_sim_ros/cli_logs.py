@@ -117,7 +117,8 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
 
     log = open_log(arguments.log)
     kind = 'csv' if arguments.csv else 'parquet'
-    files = export(log, _folder(arguments.csv or arguments.parquet, log.path), kind)
+    folder = _folder(arguments.csv or arguments.parquet, log.path, f'--{kind}')
+    files = export(log, folder, kind)
     result = {'log': str(log.path), 'files': files, 'faults': log.faults}
     lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, escape('\n'.join(lines)), result)
@@ -144,17 +145,18 @@ def _render(arguments: argparse.Namespace, show: Show) -> int:
         task = progress.add_task('rendering', total=1.0)
         count = render(log, out, options, lambda done: progress.update(task, completed=done))
     result = {'log': str(log.path), 'file': str(out), 'pictures': count, 'faults': log.faults}
-    show(arguments.json, escape(f'{out}: {count} pictures'), result)
+    lines = [f'{out}: {count} pictures', *(f'damaged: {fault}' for fault in log.faults)]
+    show(arguments.json, escape('\n'.join(lines)), result)
     return DAMAGED if log.faults else 0
 
 
-def _folder(given: Path | None, log: Path) -> Path:
+def _folder(given: Path | None, log: Path, option: str = '--out') -> Path:
     """Return the folder for what is made of a log, made when it is not there."""
     folder = given or log.parent
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ConfigError(f'--out {folder}: {error.strerror}') from None
+        raise ConfigError(f'{option} {folder}: {error.strerror}') from None
     return folder
 
 

@@ -11,7 +11,7 @@ from fluid_sim_ros.cli_shared import Show
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
-    from fluid_sim_ros.recording.reader import Log
+    from fluid_sim_ros.recording.log import Log
 
 
 #: Exit code where the log is damaged or a state differs.
@@ -45,7 +45,11 @@ def add_options(replay: argparse.ArgumentParser) -> None:
         '--to', type=float, default=math.inf, dest='end', metavar='S', help='simulated time [s]'
     )
     replay.add_argument(
-        '--topics', nargs='+', default=['*'], metavar='PATTERN', help='shell patterns (all)'
+        '--topics',
+        nargs='+',
+        default=['*'],
+        metavar='PATTERN',
+        help='shell patterns, !PATTERN: not these (all)',
     )
     replay.add_argument('--out', metavar='PNG', type=Path, help='where --with draws both flights')
 
@@ -63,26 +67,30 @@ def replay(arguments: argparse.Namespace, show: Show) -> int:
 
 
 def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
-    from fnmatch import fnmatchcase
+    from rich.markup import escape
 
-    from fluid_sim_ros.recorder_tap import RecordedTopic
+    from fluid_sim_ros.recorder_tap import selected
+    from fluid_sim_ros.recording.rosbag2 import recorded_topic
     from fluid_sim_ros.ros import replay as ros
     from fluid_sim_ros.ros.preflight import check_domain
 
     check_domain()
     options = ros.ReplayOptions(arguments.rate, arguments.loop, arguments.paused)
+    if not 0 <= arguments.begin <= arguments.end:
+        raise ConfigError(
+            f'--from {arguments.begin:g}, --to {arguments.end:g}: must be 0 or more, and in order'
+        )
     begin, end = arguments.begin * 1e9, arguments.end * 1e9
+    names = selected([t.name for t in log.topics.values()], arguments.topics, '--topics')
     chosen = [
-        RecordedTopic(t.name, t.type)
-        for t in log.topics.values()
-        if any(fnmatchcase(t.name, pattern) for pattern in arguments.topics)
+        recorded_topic(t.name, t.type, t.metadata) for t in log.topics.values() if t.name in names
     ]
     topics = [topic for topic in chosen if ros.is_installed(topic.type)]
     left_out = {t.name: f'{t.type} is not installed' for t in chosen if t not in topics}
-    names = {topic.name for topic in topics}
+    wanted = {topic.name for topic in topics}
 
     def messages() -> Iterator[tuple[str, int, bytes]]:
-        for message in log.messages(names):
+        for message in log.messages(wanted):
             if begin <= message.log_ns <= end:
                 yield message.topic, message.log_ns, message.data
 
@@ -92,7 +100,8 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     }  # fmt: skip
     lines = [f'{count} messages published']
     lines += [f'left out: {name}: {reason}' for name, reason in left_out.items()]
-    show(arguments.json, '\n'.join(lines), result)
+    lines += [f'damaged: {fault}' for fault in log.faults]
+    show(arguments.json, escape('\n'.join(lines)), result)
     return DIFFERENT if log.faults else 0
 
 

@@ -126,9 +126,15 @@ def open_recorder(
     return tap
 
 
-def selected(names: Sequence[str], patterns: Sequence[str]) -> set[str]:
+def selected(
+    names: Sequence[str], patterns: Sequence[str], option: str = 'record.topics'
+) -> set[str]:
     """
-    Return the topic names that match one of the shell patterns.
+    Return the topic names that the shell patterns choose.
+
+    They are applied in their order: each adds what it matches, or takes it away where it begins
+    with ``!``. Where the first one takes away, all others are chosen before. ``option`` is what
+    the user gave the patterns to.
 
     Raises
     ------
@@ -136,9 +142,12 @@ def selected(names: Sequence[str], patterns: Sequence[str]) -> set[str]:
         If a pattern matches none.
 
     """
+    chosen = set(names) if patterns and patterns[0].startswith('!') else set()
     for pattern in patterns:
-        if not any(fnmatchcase(name, pattern) for name in names):
+        matching = {name for name in names if fnmatchcase(name, pattern.removeprefix('!'))}
+        if not matching:
             raise ConfigError(
-                f"record.topics: '{pattern}' matches no topic; there are: {listed(names)}"
+                f"{option}: '{pattern}' matches no topic; there are: {listed(names)}"
             )
-    return {name for name in names if any(fnmatchcase(name, p) for p in patterns)}
+        chosen = chosen - matching if pattern.startswith('!') else chosen | matching
+    return chosen

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from fluid_sim_ros.demo.summary import VEHICLE, Recording, gust_of_scene
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.decode import columns
-from fluid_sim_ros.recording.reader import Log, LogMessage, open_log
+from fluid_sim_ros.recording.log import Log, LogMessage
+from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.resimulate import resimulate
 
 #: Simulated time of the still [s]: leaning into the gust.
@@ -29,9 +30,10 @@ _FIELDS = {
     'medium/wind': [f'twist.linear.{axis}' for axis in 'xyz'],
     'joint_states': [f'effort[{rotor}]' for rotor in range(4)],
 }
-#: What is read, and what the demo's simulator records: viewers place the vehicle by /tf.
+#: What is read, and what the demo's simulator records: the still shows the thrust, and viewers
+#: the markers, which they place by /tf.
 _READ = tuple(f'{VEHICLE}/{leaf}' for leaf in _FIELDS)
-TOPICS = (*_READ, '/tf')
+TOPICS = (*_READ, f'{VEHICLE}/wrench/thrust', f'{VEHICLE}/markers', '/tf')
 
 Array = NDArray[np.float64]
 

@@ -1,5 +1,6 @@
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
+from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.plugins import native as nat
@@ -33,6 +35,7 @@ DEFAULTS: dict[str, Any] = {
     'joint_states.rate': 100.0,
     'clock.rate': 100.0,
     'tf.rate': 50.0,
+    'markers.rate': 20.0,
 }
 
 
@@ -119,6 +122,10 @@ class StateTopics:
             copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
             self._add(f'{name}/medium/{stream}', TWIST, template, 'medium.rate', copies)
         self._add_joint_states(vehicle)
+        # for eyes: a whole number of steps, at most at the rate
+        steps = 1.0 / (settings['markers.rate'] * self._simulation.timestep)
+        period = max(1, math.ceil(steps * (1.0 - 1e-9)))
+        self.topics.append(MarkerTopic(self._simulation, vehicle, row, self._stamp.view, period))
         self.topics += sensor_topics(self._simulation, self.suites[name], name)
 
     def _add_transforms(self, vehicles: Sequence[str], rows: Array) -> None:

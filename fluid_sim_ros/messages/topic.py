@@ -22,8 +22,10 @@ class StateTopic:
         Steps between two messages.
     needs_forces
         Its numbers need ``observe(forces=True)``.
-    reliable, depth
+    reliable, depth, transient_local
         Quality of service that is offered.
+    for_eyes
+        Published at its rate of wall time at most, and also while the simulation stands.
     appears_later
         What it measures at one due step may stand in the message of another.
 
@@ -39,6 +41,8 @@ class StateTopic:
 
     reliable: ClassVar[bool] = True
     depth: ClassVar[int] = 10
+    transient_local: ClassVar[bool] = False
+    for_eyes: ClassVar[bool] = False
     appears_later: bool = False
 
     def data(self) -> bytes:

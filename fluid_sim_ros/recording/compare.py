@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fluid_sim_ros.recording.decode import fields
-from fluid_sim_ros.recording.reader import LogMessage
+from fluid_sim_ros.recording.log import LogMessage
 
 
 @dataclass(frozen=True)

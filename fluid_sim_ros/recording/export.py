@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.recording.decode import columns
-from fluid_sim_ros.recording.reader import Log
+from fluid_sim_ros.recording.log import Log
 
 
 def export(log: Log, folder: Path, kind: str) -> list[str]:

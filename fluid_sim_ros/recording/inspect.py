@@ -8,7 +8,8 @@ from mcap.writer import CompressionType, Writer
 
 from fluid_sim_ros.recording import rosbag2
 from fluid_sim_ros.recording.description import LogError
-from fluid_sim_ros.recording.reader import Log, open_log
+from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.writer import CHUNK_SIZE
 
 

@@ -30,6 +30,8 @@ from mcap.records import (
 from fluid_sim_ros.recording import wire
 
 _MAGIC = b'\x89MCAP0\r\n'
+#: Logs are 1 % smaller at the default of 3, which takes a fifth longer.
+_ZSTD_LEVEL = 1
 _CHUNK_HEAD = struct.Struct('<BQQQQII4sQ')
 _INDEX_HEAD = struct.Struct('<BQHI')
 
@@ -62,7 +64,7 @@ class McapFile:
         self._places: dict[int, list[int]] = {}
         self.counts: dict[int, int] = {}
         self.first_ns, self.last_ns = 0, 0
-        self._compressor = zstandard.ZstdCompressor()
+        self._compressor = zstandard.ZstdCompressor(level=_ZSTD_LEVEL)
 
     def _write(self, data: bytes) -> None:
         self._crc = zlib.crc32(data, self._crc)
@@ -126,10 +128,10 @@ class McapFile:
             head = self._new.end()
             self._content.append(head)
             self.chunk_size = len(head)
-        unpack, size, places = wire.MESSAGE.unpack_from, wire.RECORD_HEAD, self._places
+        unpack, size, places = wire.PLACE.unpack_from, wire.RECORD_HEAD, self._places
         at, end, base = 0, len(payload), self.chunk_size
         while at < end:
-            _, length, channel, _, log_ns, _ = unpack(payload, at)
+            length, channel, log_ns = unpack(payload, at)
             try:
                 places[channel] += (log_ns, base + at)
             except KeyError:

@@ -8,13 +8,10 @@ the index at the file's end (or the length of the damaged part) says where to go
 
 import struct
 import zlib
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
 
-from fluid_sim_ros.errors import listed
-from fluid_sim_ros.recording.description import LogError, RunDescription
+from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.recording.log import Log, LogTopic
 from fluid_sim_ros.recording.records import (
     ATTACHMENT,
     CHANNEL,
@@ -25,113 +22,16 @@ from fluid_sim_ros.recording.records import (
     FOOTER_SIZE,
     HEADER,
     MAGIC,
-    MESSAGE,
-    MESSAGE_HEAD,
     OTHERS,
     RECORD,
     SCHEMA,
     BadRecordError,
-    Chunk,
     Fields,
     decompress,
     read_attachment,
     read_chunk_head,
     records,
 )
-
-
-class LogMessage(NamedTuple):
-    """One message: topic, step, simulated time [ns], wall time [ns], CDR bytes."""
-
-    topic: str
-    step: int
-    log_ns: int
-    publish_ns: int
-    data: bytes
-
-
-@dataclass(frozen=True)
-class LogTopic:
-    """A topic of a log."""
-
-    name: str
-    type: str
-    definition: str
-    metadata: dict[str, str]
-
-
-@dataclass
-class Log:
-    """
-    An opened log.
-
-    Attributes
-    ----------
-    path, size
-        The file and its size [bytes].
-    faults
-        One line for each part that is damaged or missing; empty for a sound file.
-    complete
-        Whether the file was ended properly.
-    topics
-        By channel id.
-    attachments
-        By name.
-
-    """
-
-    path: Path
-    size: int = 0
-    faults: list[str] = field(default_factory=list)
-    complete: bool = False
-    library: str = ''
-    topics: dict[int, LogTopic] = field(default_factory=dict)
-    attachments: dict[str, bytes] = field(default_factory=dict)
-    _schemas: dict[int, tuple[str, str]] = field(default_factory=dict)
-    _chunks: list[Chunk] = field(default_factory=list)
-
-    def messages(self, topics: Collection[str] | None = None) -> Iterator[LogMessage]:
-        """Return every message of some topics (default: all) in the order of the file."""
-        wanted = {
-            number: topic.name
-            for number, topic in self.topics.items()
-            if topics is None or topic.name in topics
-        }
-        with self.path.open('rb') as stream:
-            for chunk in self._chunks:
-                stream.seek(chunk.offset)
-                content = decompress(chunk, stream.read(chunk.size))
-                for kind, begin, end in records(content):
-                    if kind != MESSAGE:
-                        continue
-                    channel, step, log_ns, wall_ns = MESSAGE_HEAD.unpack_from(content, begin)
-                    name = wanted.get(channel)
-                    if name is not None:
-                        data = content[begin + MESSAGE_HEAD.size : end]
-                        yield LogMessage(name, step, log_ns, wall_ns, data)
-
-    def topic(self, name: str) -> LogTopic:
-        """
-        Return a topic by name.
-
-        Raises
-        ------
-        LogError
-            With the names that exist.
-
-        """
-        for topic in self.topics.values():
-            if topic.name == name:
-                return topic
-        names = listed(sorted(t.name for t in self.topics.values()))
-        raise LogError(f"{self.path}: no topic '{name}'; it has: {names}")
-
-    def description(self) -> RunDescription:
-        """Return the run's description, or raise LogError."""
-        try:
-            return RunDescription.of_attachments(self.attachments)
-        except LogError as error:
-            raise LogError(f'{self.path}: {error}') from None
 
 
 def open_log(path: str | Path) -> Log:
@@ -182,6 +82,7 @@ class _Scan:
         self._log = log
         self._content = content
         self._seen: set[int] = set()
+        self._schemas: dict[int, tuple[str, str]] = {}  # type and definition
 
     def run(self) -> None:
         content = self._content
@@ -241,7 +142,7 @@ class _Scan:
                 self._take_channel(content[first:last])
             else:  # they stand before the messages
                 break
-        self._log._chunks.append(chunk)
+        self._log.chunks.append(chunk)
         self._seen.add(at)
 
     def _take_schema(self, record: bytes) -> None:
@@ -249,7 +150,7 @@ class _Scan:
         number = fields.uint16()
         name = fields.string()
         fields.string()
-        self._log._schemas[number] = (name, fields.block().decode())
+        self._schemas[number] = (name, fields.block().decode())
 
     def _take_channel(self, record: bytes) -> None:
         fields = Fields(record)
@@ -261,7 +162,7 @@ class _Scan:
         while pairs.left:
             key = pairs.string()
             metadata[key] = pairs.string()
-        kind, text = self._log._schemas.get(schema, ('', ''))
+        kind, text = self._schemas.get(schema, ('', ''))
         self._log.topics[number] = LogTopic(topic, kind, text, metadata)
 
     def _check_end(self, at: int) -> None:
@@ -296,7 +197,7 @@ class _Scan:
                     lost.append((offset, offset + length))
         for at, after in lost:
             self._rescue(at, after)
-        self._log._chunks.sort(key=lambda chunk: chunk.offset)
+        self._log.chunks.sort(key=lambda chunk: chunk.offset)
         return True
 
     def _rescue(self, at: int, after: int) -> None:

@@ -14,7 +14,7 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.film_file import KINDS, Picture, film_file
-from fluid_sim_ros.recording.reader import Log
+from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.tracks import Track, read_tracks
 from fluid_sim_ros.recording.water import add_waves
 from fluid_sim_ros.simulation import Simulation
@@ -85,7 +85,7 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
         stage = _Stage(log, Path(folder), options)
         times = stage.frame_times()
         if out.suffix == '.png':
-            times = times[-1:] if options.at is None else np.array([options.at])
+            times = times[-1:] if options.at is None else stage.time_of_still(options.at)
         file = film_file(out, options.width, options.height, options.rate)
         try:
             for number, time in enumerate(times, 1):
@@ -120,13 +120,28 @@ class _Stage:
         self._extent = _extent(model, self._followed)
         self._joints = {name: _joint_states(log, track) for name, track in self._tracks.items()}
         self._camera = self._choose_camera()
-        self._renderer = mujoco.Renderer(model, options.height, options.width)
+        try:
+            self._renderer = mujoco.Renderer(model, options.height, options.width)
+        except (mujoco.FatalError, RuntimeError) as error:
+            raise ConfigError(
+                f'render: no picture of {options.width} x {options.height} pixels can be drawn '
+                f'here: {error}'
+            ) from None
 
     def frame_times(self) -> Array:
         """Return the simulated times of the pictures [s]."""
         times = next(iter(self._tracks.values())).times
         step = self._options.speed / self._options.rate
         return np.arange(times[0], times[-1] + step / 2, step)
+
+    def time_of_still(self, time: float) -> Array:
+        """Return the time of a still [s], which must be one of the log's."""
+        times = next(iter(self._tracks.values())).times
+        if not times[0] <= time <= times[-1]:
+            raise ConfigError(
+                f'render: {time:g} s is not in the log, which has {times[0]:g} to {times[-1]:g} s'
+            )
+        return np.array([time])
 
     def picture(self, time: float) -> Picture:
         """Return the picture at a simulated time [s]."""

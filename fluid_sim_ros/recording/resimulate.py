@@ -21,7 +21,7 @@ from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.recorder_tap import EVENTS
 from fluid_sim_ros.recording.compare import Difference, compare
 from fluid_sim_ros.recording.description import RunDescription
-from fluid_sim_ros.recording.reader import Log, LogMessage
+from fluid_sim_ros.recording.log import Log, LogMessage
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schedule import NEVER, exact
 from fluid_sim_ros.simulation import Simulation

@@ -1,6 +1,6 @@
 """What rosbag2 wants beside the messages: quality of service and ``metadata.yaml``."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,20 @@ def qos(topic: RecordedTopic) -> list[dict[str, Any]]:
 def qos_text(topic: RecordedTopic) -> str:
     """Return the quality of service as the text that channel metadata holds."""
     return yaml.dump(qos(topic), sort_keys=False, Dumper=_Plain)
+
+
+def recorded_topic(name: str, kind: str, channel: Mapping[str, str]) -> RecordedTopic:
+    """Return a topic with the quality of service that its channel's metadata tells, if it does."""
+    try:
+        offered = yaml.safe_load(channel.get('offered_qos_profiles', ''))[0]
+        reliable, durable = offered['reliability'], offered['durability']
+    except (yaml.YAMLError, TypeError, LookupError):
+        return RecordedTopic(name, kind)
+    # words since rosbag2 of Jazzy, numbers before; the depth matters to the sender only
+    return RecordedTopic(
+        name, kind, reliable=reliable in ('reliable', 1),
+        transient_local=durable in ('transient_local', 1),
+    )  # fmt: skip
 
 
 class _Plain(yaml.SafeDumper):

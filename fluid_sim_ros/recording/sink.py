@@ -11,6 +11,7 @@ from fluid_sim_ros.messages.commands import Commands
 from fluid_sim_ros.messages.state_topics import StateTopics
 from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions, selected
 from fluid_sim_ros.recording.recorder import Recorder
+from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.simulation import Simulation
 
 
@@ -44,14 +45,16 @@ class RecordingSink:
         wanted = [topic for topic in self._states.topics if topic.name in names]
         commands = Commands(simulation, known).topics
         channels = [
-            RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, t.reliable, t.depth)
+            RecordedTopic(
+                f'/{t.name.lstrip("/")}', t.type, t.name, t.reliable, t.depth, t.transient_local
+            )
             for t in wanted
         ]
         channels += [RecordedTopic(f'/{t.name}', t.type, t.name, depth=1) for t in commands]
         self.recorder = Recorder(simulation, channels, RecorderOptions(path, known))
         self._topics = list(enumerate(wanted))
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
-        self.period = math.gcd(*(topic.period for topic in wanted))
+        self.period = math.gcd(*(topic.period for topic in wanted)) or NEVER
 
     def write(self, simulation: Simulation) -> None:
         """Record what is due at this step."""

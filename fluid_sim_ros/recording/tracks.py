@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
-from fluid_sim_ros.recording.reader import Log
+from fluid_sim_ros.recording.log import Log
 
 Array = NDArray[np.float64]
 

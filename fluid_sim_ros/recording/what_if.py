@@ -8,7 +8,7 @@ import numpy as np
 
 from fluid_sim_ros.recording import pictures
 from fluid_sim_ros.recording.description import LogError
-from fluid_sim_ros.recording.reader import Log
+from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.resimulate import parse_changes, resimulate
 from fluid_sim_ros.recording.tracks import track_of
 

@@ -13,12 +13,15 @@ FRAME = struct.Struct('<cI')
 #: What stands before a message's data, as in the file: kind of record, length of what follows it,
 #: channel, step, log time [ns], publish time [ns].
 MESSAGE = struct.Struct('<BQHIQQ')
+#: The part of it that an index needs: length, channel, log time.
+PLACE = struct.Struct('<xQH4xQ')
 #: Bytes of a record before those that its length counts.
 RECORD_HEAD = 9
-_KIND = 5
-_FIXED = MESSAGE.size - RECORD_HEAD
+MESSAGE_KIND = 5
+#: Bytes that the length counts before the data.
+FIXED = MESSAGE.size - RECORD_HEAD
 
 
 def head(topic: int, step: int, log_ns: int, publish_ns: int, size: int) -> bytes:
     """Return what stands before ``size`` bytes of data; channels count from 1."""
-    return MESSAGE.pack(_KIND, _FIXED + size, topic + 1, step, log_ns, publish_ns)
+    return MESSAGE.pack(MESSAGE_KIND, FIXED + size, topic + 1, step, log_ns, publish_ns)

@@ -8,10 +8,10 @@ back to its last whole chunk.
 """
 
 import base64
+import contextlib
 import json
 import os
 import select
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -22,6 +22,8 @@ from fluid_sim_ros.recording.mcap_file import McapFile
 
 #: Size at which a chunk is closed [bytes].
 CHUNK_SIZE = 1 << 20
+#: How far the simulator goes before [nice].
+_NICE = 5
 _READ_SIZE = 1 << 20
 
 
@@ -107,26 +109,35 @@ class LogFile:
 
 def frames(deadline: Any) -> Iterator[tuple[bytes, bytes]]:
     """Return frames from standard input until it ends; an empty kind when the deadline passed."""
-    buffer = bytearray()
+    buffer, begin, end = memoryview(bytearray(_READ_SIZE)), 0, 0  # what was read and not returned
     while True:
         due = deadline()
         timeout = None if due is None else max(0.0, due - time.monotonic())
         if not select.select([0], [], [], timeout)[0]:
             yield b'', b''
             continue
-        got = os.read(0, _READ_SIZE)
+        got = os.readv(0, [buffer[end:]])
         if not got:
             return
-        buffer += got
-        at = 0
-        while len(buffer) - at >= wire.FRAME.size:
-            kind, size = wire.FRAME.unpack_from(buffer, at)
-            begin = at + wire.FRAME.size
-            if len(buffer) < begin + size:
+        end += got
+        needed = wire.FRAME.size
+        while end - begin >= wire.FRAME.size:
+            kind, size = wire.FRAME.unpack_from(buffer, begin)
+            needed = wire.FRAME.size + size
+            if end - begin < needed:
                 break
-            yield kind, bytes(buffer[begin : begin + size])
-            at = begin + size
-        del buffer[:at]
+            yield kind, bytes(buffer[begin + wire.FRAME.size : begin + needed])
+            begin += needed
+        buffer, begin, end = _moved(buffer, begin, end, needed)
+
+
+def _moved(buffer: memoryview, begin: int, end: int, needed: int) -> tuple[memoryview, int, int]:
+    """Return a buffer with what is left at its start, and room for the frame that it begins."""
+    left = bytes(buffer[begin:end])
+    if needed > len(buffer):
+        buffer = memoryview(bytearray(needed))
+    buffer[: len(left)] = left
+    return buffer, 0, len(left)
 
 
 class Server:
@@ -165,9 +176,17 @@ class Server:
 
 
 def _say(what: dict[str, Any]) -> None:
-    sys.stdout.write(json.dumps(what) + '\n')
-    sys.stdout.flush()
+    with contextlib.suppress(BrokenPipeError):  # the simulator was killed: nobody listens
+        os.write(1, json.dumps(what).encode() + b'\n')
+
+
+def _stand_back() -> None:
+    """Have the system prefer the simulator where both want the same processor."""
+    os.nice(_NICE)
+    with contextlib.suppress(AttributeError, OSError):  # Linux only
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
 
 
 if __name__ == '__main__':
+    _stand_back()
     Server().serve()

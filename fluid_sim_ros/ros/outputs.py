@@ -9,7 +9,12 @@ from typing import Any
 from geometry_msgs.msg import TwistStamped, TwistWithCovarianceStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_profile_sensor_data,
+)
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import (
@@ -20,8 +25,10 @@ from sensor_msgs.msg import (
     NavSatFix,
     Range,
 )
+from visualization_msgs.msg import MarkerArray
 
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
+from fluid_sim_ros.messages.marker_topics import MARKERS
 from fluid_sim_ros.messages.sensor_topics import (
     FLUID_PRESSURE,
     IMU,
@@ -38,10 +45,14 @@ from fluid_sim_ros.simulation import Simulation
 
 _STATE_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 _CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
+_LATCHED_QOS = QoSProfile(
+    depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
+)
 _MESSAGES: dict[str, type] = {
     ODOMETRY: Odometry, WRENCH: WrenchStamped, TWIST: TwistStamped, JOINT_STATE: JointState,
     CLOCK: Clock, IMU: Imu, MAGNETIC_FIELD: MagneticField, FLUID_PRESSURE: FluidPressure,
     NAV_SAT_FIX: NavSatFix, RANGE: Range, VELOCITY: TwistWithCovarianceStamped,
+    MARKERS: MarkerArray,
 }  # fmt: skip
 # an optional part of ROS: without it the transforms can be recorded, but not published
 if importlib.util.find_spec('tf2_msgs') is not None:
@@ -76,7 +87,8 @@ class Outputs:
 
     Its period is the greatest common divisor of the periods of the topics that are wanted now
     and of the clock; wrenches and accelerations are evaluated, and sensors sampled, only at steps
-    where a subscribed or recorded topic needs them.
+    where a subscribed or recorded topic needs them. Topics for eyes, such as markers, go to
+    the log like all others, and to subscribers by ``show``.
     """
 
     def __init__(self, node: Node, simulation: Simulation, settings: dict[str, Any]) -> None:
@@ -90,6 +102,9 @@ class Outputs:
         self.tap: Tap | None = None
         self._clock = next(topic for topic in self.topics if topic.state.type == CLOCK)
         self._active: list[Topic] = []
+        self._for_eyes = [topic for topic in self.topics if topic.state.for_eyes]
+        self._show_period = 1.0 / settings['markers.rate']
+        self._show_due = 0.0
         self._refreshed_at = -math.inf
         self.refresh()
 
@@ -106,6 +121,8 @@ class Outputs:
     def _quality(state: StateTopic) -> QoSProfile:
         if state.type == CLOCK:
             return _CLOCK_QOS
+        if state.transient_local:
+            return _LATCHED_QOS
         return _STATE_QOS if state.reliable else qos_profile_sensor_data
 
     def destroy(self) -> None:
@@ -135,13 +152,47 @@ class Outputs:
         tick = simulation.tick
         self._publish([t for t in self._active if tick % t.period == 0])
 
+    def show(self, simulation: Simulation, now: float, stands: bool) -> None:
+        """
+        Publish topics for eyes, where their period and their rate of wall time say so.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+        now
+            Wall time [s], monotonic.
+        stands
+            The simulation is not going on, so that the present state is all there is to see.
+
+        """
+        # half a period of slack, so that steps in real time do not miss their turn by a hair
+        if now < self._show_due - 0.5 * self._show_period:
+            return
+        tick = simulation.tick
+        due = [t for t in self._for_eyes if stands or tick % t.period == 0]
+        wanted = [t for t in due if t.publisher.get_subscription_count()]
+        if due:
+            self._show_due = max(self._show_due + self._show_period, now)
+        if wanted:
+            self._states.look()
+        for topic in wanted:
+            topic.publisher.handle.publish_raw(self._states.data(topic.state))
+            topic.published += 1
+
     def refresh(self) -> None:
         """Look which topics have subscribers; what is recorded is wanted without any."""
+        shown = []
         for topic in self.topics:
             publisher = topic.publisher
-            topic.subscribed = publisher is not None and publisher.get_subscription_count() > 0
+            heard = publisher is not None and publisher.get_subscription_count() > 0
+            topic.subscribed = heard and not topic.state.for_eyes
+            if heard and topic.state.for_eyes:
+                shown.append(topic)
         self._active = [t for t in self.topics if t.subscribed or t.record >= 0]
-        self.period = math.gcd(self._clock.period, *(topic.period for topic in self._active))
+        self.period = math.gcd(
+            self._clock.period, *(topic.period for topic in [*self._active, *shown])
+        )
 
     def restart(self) -> None:
         """Forget what belongs to the time before a reset."""

@@ -90,8 +90,8 @@ TABLE: dict[str, Declared] = {
     ),
     'record.topics': Declared(
         ['*'],
-        'shell patterns of the state topics to record; commands are always recorded, because the '
-        'run cannot be repeated without them',
+        'shell patterns of the state topics to record, `!` takes away; commands are always '
+        'recorded, because the run cannot be repeated without them',
     ),
     'record.policy': Declared(
         'block', 'when the disk is too slow: wait, or leave states out', choices=RECORD_POLICIES
@@ -121,7 +121,9 @@ TABLE: dict[str, Declared] = {
         low=0,
         high=3600,
     ),
-    'markers.rate': Declared(20.0, '[Hz] of wall time', low=0.1, high=100),
+    'markers.rate': Declared(
+        20.0, '[Hz] at most, of simulated and of wall time', low=0.1, high=100
+    ),
 }
 
 USE_SIM_TIME_REFUSED = (

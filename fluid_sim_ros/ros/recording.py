@@ -51,7 +51,14 @@ def start_recording(
             state = output.state
             depth = 1 if output.name == '/clock' else state.depth
             recorded.append(
-                RecordedTopic(output.full, state.type, output.name, state.reliable, depth)
+                RecordedTopic(
+                    output.full,
+                    state.type,
+                    output.name,
+                    state.reliable,
+                    depth,
+                    state.transient_local,
+                )
             )
     for entry in inputs.inputs:
         entry.record = len(recorded)

@@ -13,7 +13,6 @@ from fluid_sim_ros.requests import RequestQueue
 from fluid_sim_ros.ros.autopilot import check_pacing, start_autopilot
 from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
-from fluid_sim_ros.ros.markers import VehicleMarkers
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.recording import start_recording
 from fluid_sim_ros.runner import Runner, duration_steps, period_steps
@@ -78,10 +77,6 @@ class Session:
         self._diagnostics = Diagnostics(
             node, self.simulation, self.inputs, graph, self.outputs.suites
         )
-        self._markers = [
-            VehicleMarkers(node, self.simulation, vehicle, i)
-            for i, vehicle in enumerate(self.simulation.vehicles.values())
-        ]
         self.simulation.enable_wind(settings['enable_wind'])
         self._bridge = start_autopilot(self.simulation, settings, self.inputs, report, self.reset)
         self._diagnostics.bridge = self._bridge
@@ -89,7 +84,7 @@ class Session:
             self.simulation, self.inputs, [self.outputs], self._pacing(), requests,
             self._housekeeping,
         )  # fmt: skip
-        self._diagnosed_at = self._marked_at = 0.0
+        self._diagnosed_at = 0.0
         try:
             self.tap = start_recording(
                 node, self.simulation, settings, self.inputs, self.outputs, self._diagnostics
@@ -103,11 +98,11 @@ class Session:
         self._close_bridge()
         if self.tap is not None:
             self.tap.close()
+            if self.tap.fault:
+                self._report('recording', self.tap.fault)
         self.inputs.destroy()
         self.outputs.destroy()
         self._diagnostics.destroy()
-        for markers in self._markers:
-            markers.destroy(self._node)
         self.simulation.close()
 
     def _close_bridge(self) -> None:
@@ -140,10 +135,9 @@ class Session:
             if self.tap is not None and self.tap.fault:
                 self._report('recording', f'{self.tap.fault}; going on without')
             self._diagnostics.publish(self.runner, self.diverged)
-        if now - self._marked_at >= 1.0 / self._settings['markers.rate']:
-            self._marked_at = now
-            for markers in self._markers:
-                markers.publish_if_wanted()
+        runner = self.runner
+        stands = bool(runner.paused or runner.stopped or self.diverged)
+        self.outputs.show(self.simulation, now, stands)
 
     def _pacing(self) -> Pacing:
         if self._bridge is not None:
@@ -176,6 +170,7 @@ class Session:
 
     def _hold(self, simulation: Simulation) -> bool:
         self.outputs.repeat(simulation)
+        self.outputs.show(simulation, time.monotonic(), stands=True)
         return False
 
     def _go_on(self, simulation: Simulation) -> bool:

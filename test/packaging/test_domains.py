@@ -20,6 +20,11 @@ def test_a_test_and_its_module_have_different_domains(ros_domain, ros_domain_of_
     assert os.environ['ROS_DOMAIN_ID'] == str(ros_domain)
 
 
+@pytest.mark.ros
+def test_the_mark_alone_gives_a_domain():
+    assert 1 <= int(os.environ['ROS_DOMAIN_ID']) <= 60
+
+
 def test_nothing_leaves_this_host():
     assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'LOCALHOST'
 

@@ -33,6 +33,8 @@ def test_every_plotted_field_is_in_a_log(tmp_path):
         entry['value']
         for panel in layout['configById'].values() for entry in panel.get('paths', ())
     ]  # fmt: skip
+    scene = layout['configById']['3D!scene']
+    assert set(scene['topics']) <= {name for name, table in fields.items() if table}
     assert len(values) > 12
     for value in values:
         topic, field = re.match(r'(/[^.]*)\.(.*)', value).groups()

@@ -13,10 +13,13 @@ from mcap.reader import make_reader
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.headless import run_scene
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
-from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions
+from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions, selected
+from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.recorder import Recorder
+from fluid_sim_ros.recording.rosbag2 import recorded_topic
 from fluid_sim_ros.recording.sink import RecordingSink
 
 TOPIC = RecordedTopic('/a', 'std_msgs/msg/String')
@@ -181,3 +184,39 @@ def test_memory_and_files_are_given_back(tmp_path):
         recorder.close()
     assert handles() == before
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - peak < 64 * 1024  # [KiB]
+
+
+@pytest.mark.parametrize(
+    ('patterns', 'chosen'),
+    [
+        (['*'], {'a/x', 'a/y', 'b/x'}),
+        (['a/*', '!*/y'], {'a/x'}),
+        (['!*/x'], {'a/y'}),
+        (['!*', 'b/x'], {'b/x'}),
+        ([], set()),
+    ],
+)
+def test_patterns_add_and_take_away_in_their_order(patterns, chosen):
+    assert selected(['a/x', 'a/y', 'b/x'], patterns) == chosen
+
+
+def test_a_log_without_states_is_whole(tmp_path):
+    run_scene('quadrotor', duration=0.1, record=tmp_path / 'a.mcap', record_topics=['!*'])
+    log = open_log(tmp_path / 'a.mcap')
+    assert log.complete and not log.faults and not list(log.messages())
+    assert '/x500/cmd/thrust' in {topic.name for topic in log.topics.values()}
+
+
+def test_a_replay_offers_the_recorded_quality_of_service(tmp_path):
+    fly(tmp_path / 'a.mcap', 'x500', seconds=0.1)
+    offered = {
+        t.name: recorded_topic(t.name, t.type, t.metadata)
+        for t in open_log(tmp_path / 'a.mcap').topics.values()
+    }
+    assert offered['/x500/markers'].transient_local and offered['/x500/markers'].reliable
+    assert not offered['/x500/imu/data'].reliable
+    assert offered['/x500/odom'].reliable and not offered['/x500/odom'].transient_local
+    assert recorded_topic('a', 'b', {}).reliable
+    old = {'offered_qos_profiles': '- {reliability: 2, durability: 1}'}
+    assert not recorded_topic('a', 'b', old).reliable
+    assert recorded_topic('a', 'b', {'offered_qos_profiles': '['}).reliable

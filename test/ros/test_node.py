@@ -341,3 +341,11 @@ def test_a_scene_file_as_parameter_file_is_refused(tmp_path):
     with Process(NODE, '--ros-args', '--params-file', str(path)) as process:
         assert process.wait() == 2
     assert "belongs in the parameter 'scene'" in process.output
+
+
+def test_markers_are_shown_while_the_node_is_paused():
+    with Peer() as peer, node(scene='quadrotor'):
+        peer.call(SetBool, 'fluid_sim_node/pause', data=True)
+        markers = peer.collect(MarkerArray, 'x500/markers')
+        wait_until(lambda: len(markers) > 2, 'markers')
+        assert len({stamp_ns(message.markers[0]) for message in markers}) == 1

@@ -12,6 +12,7 @@ from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message, serialize_message
 from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import MarkerArray
 
 from fluid_sim_ros.headless import run_scene
 from fluid_sim_ros.recording.reader import open_log
@@ -146,3 +147,26 @@ def test_equal_messages_have_equal_bytes_with_and_without_ros(tmp_path, scene):
     assert first == second
     message = deserialize_message(first[f'/{scene}/odom'][-1][1], Odometry)
     assert len(serialize_message(message)) == len(first[f'/{scene}/odom'][-1][1])
+
+
+def test_markers_are_recorded_as_published_and_a_pattern_takes_them_away(tmp_path):
+    with Peer() as peer:
+        markers = peer.collect(MarkerArray, f'{VEHICLE}/markers', latched=True)
+        with node(scene='rov', record=tmp_path / 'a.mcap') as process:
+            wait_until(lambda: len(markers) > 4, 'markers')
+            process.signal(signal.SIGINT)
+            assert process.wait() == 0
+    recorded = [
+        deserialize_message(data, MarkerArray)
+        for _, data in read(tmp_path / 'a.mcap')[f'/{VEHICLE}/markers']
+    ]
+    by_stamp = {stamp_ns(m.markers[0]): m for m in recorded}
+    assert list(by_stamp) == list(range(0, 50_000_000 * len(by_stamp), 50_000_000))
+    for message in markers:
+        assert by_stamp[stamp_ns(message.markers[0])] == message
+    topics = "['!*/markers', '!/diagnostics']"
+    path = tmp_path / 'b.mcap'
+    with node(scene='rov', record=path, record__topics=topics, duration=0.1) as process:
+        assert process.wait() == 0
+    assert f'/{VEHICLE}/odom' in read(path)
+    assert not {f'/{VEHICLE}/markers', '/diagnostics'} & set(read(path))

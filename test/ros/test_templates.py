@@ -2,15 +2,16 @@
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import TwistStamped, TwistWithCovarianceStamped, WrenchStamped
+from geometry_msgs.msg import Point, TwistStamped, TwistWithCovarianceStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_typestore
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure, Imu, JointState, MagneticField, NavSatFix, Range
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import ColorRGBA, Float64MultiArray
+from visualization_msgs.msg import Marker, MarkerArray
 
-from fluid_sim_ros.messages import sensor_templates, templates
+from fluid_sim_ros.messages import marker_topics, sensor_templates, templates
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import TRANSFORMS
 
@@ -192,3 +193,27 @@ def test_range(frame, by_sound, kind):
         place[:] = fill(templates.clock()).stamps[0]
     template.blocks[0][:] = templates.as_bytes(np.array([3.25], dtype=np.float32))
     assert_same(template, message)
+
+
+@pytest.mark.parametrize('name', ['a', 'ab', 'abc', 'abcd'])  # each alignment of what follows
+def test_marker_array(name):
+    """A geom and an arrow, as ROS's own message holds them."""
+    pose, ends = np.random.default_rng(3).normal(size=7), np.arange(1.0, 7.0)
+    geom = stamped(Marker(ns=name, id=3, type=Marker.CUBE, action=Marker.ADD))
+    p, o = geom.pose.position, geom.pose.orientation
+    p.x, p.y, p.z, o.x, o.y, o.z, o.w = pose
+    geom.scale.x, geom.scale.y, geom.scale.z = 1.0, 2.0, 3.0
+    geom.color = ColorRGBA(r=0.25, g=0.5, b=0.75, a=1.0)
+    arrow = stamped(Marker(ns='forces', id=1, type=Marker.ARROW, text=name))
+    arrow.scale.x, arrow.scale.y, arrow.scale.z = 4.0, 5.0, 6.0
+    arrow.color = ColorRGBA(r=1.0, a=0.5)
+    arrow.points = [Point(x=1.0, y=2.0, z=3.0), Point(x=4.0, y=5.0, z=6.0)]
+    for marker in (geom, arrow):
+        marker.header.frame_id = 'map'
+    template = marker_topics.marker_array([
+        marker_topics.Marker(name, 3, Marker.CUBE, (1.0, 2.0, 3.0), (0.25, 0.5, 0.75, 1.0)),
+        marker_topics.Marker(
+            'forces', 1, Marker.ARROW, (4.0, 5.0, 6.0), (1.0, 0.0, 0.0, 0.5), name, corners=2
+        ),
+    ])  # fmt: skip
+    assert_same(fill(template, pose, ends), MarkerArray(markers=[geom, arrow]))
