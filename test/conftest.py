@@ -71,7 +71,7 @@ def ros_domain() -> Iterator[int]:
 
 @pytest.fixture(autouse=True)
 def _ros_tests_have_a_domain(request: pytest.FixtureRequest) -> None:
-    """Give every test marked ``ros`` a domain of its own; none is left in the common one."""
+    """Give every test marked ``ros`` a domain of its own: none is left in the common one."""
     marked = request.node.get_closest_marker('ros') is not None
     if marked and 'ros_domain_of_module' not in request.fixturenames:
         request.getfixturevalue('ros_domain')
