@@ -133,6 +133,8 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
     show(arguments.json, summary_table(result), result)
     if arguments.record and arguments.json != '-':
         _console().print(f'Log: {result["record"]}', soft_wrap=True)
+    if result.get('record_fault'):  # the flight went on without
+        raise ConfigError(result['record_fault'])
     return 0
 
 

@@ -105,7 +105,8 @@ def run_scene(
     -------
     dict
         Settings, real-time factor, and per vehicle the final state and the largest fluid force,
-        units in the keys. Forces are looked at every 0.01 s.
+        units in the keys. Forces are looked at every 0.01 s. ``record_fault`` is what ended the
+        recording before the run, such as a full disk, or empty.
 
     Raises
     ------
@@ -165,12 +166,12 @@ def _recording(
     settings = {'fluid': fluid or ''}
     sink = RecordingSink(simulation, Path(path), settings, topics)
     sinks.append(sink)
+    files = {'record': str(sink.recorder.paths[0])}
     try:
-        yield {'record': str(sink.recorder.paths[0])}, sink
+        yield files, sink
     finally:
         sink.close()
-    if sink.recorder.fault:
-        raise ConfigError(sink.recorder.fault)
+        files['record_fault'] = sink.recorder.fault
 
 
 def summary_table(result: dict[str, Any]) -> Table:

@@ -1,5 +1,6 @@
 """What is handed over is what stands in the file, read by the reader of the mcap project."""
 
+import json
 import resource
 import subprocess
 import sys
@@ -158,6 +159,21 @@ FULL_DISK = textwrap.dedent("""
     print(recorder.fault)
     print(simulation.step_count)
 """)
+
+
+def test_a_command_whose_disk_is_full_shows_its_result_and_the_fault(tmp_path):
+    path, most = tmp_path / 'a.mcap', 60_000
+    done = subprocess.run(
+        [Path(sys.executable).with_name('fluid_sim'), 'run', 'rov', '--duration', '5', '--record',
+         path, '--json', '-'],
+        capture_output=True, text=True, check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+    )  # fmt: skip
+    assert done.returncode == 2
+    result = json.loads(done.stdout)
+    assert result['duration_s'] == 5.0
+    assert result['record_fault'] == f'recording to {path} stopped: File too large'
+    assert result['record_fault'] in done.stderr
 
 
 def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path):
