@@ -16,6 +16,7 @@ from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.errors import ConfigError, FluidSimError
 from fluid_sim_ros.lab.sweep.conduct import conduct
 from fluid_sim_ros.lab.sweep.flight import Flights
+from fluid_sim_ros.lab.sweep.results import as_table
 from fluid_sim_ros.lab.sweep.sweep_file import Cases, SweepFile, read_sweep
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -166,6 +167,37 @@ def test_gains_and_errors_of_a_controller_in_the_loop():
     assert strong['hold.rms_error_m'] <= strong['hold.largest_error_m'] < 0.5
 
 
+@pytest.mark.parametrize(
+    ('scene', 'vary'),
+    [
+        ('rov', {'thrust.bluerov2_heavy': {'uniform': [-0.5, 1]}, 'current.x': {'normal': [0, 1]},
+                 'integrator': {'values': ['RK4', 'implicitfast']}}),
+        ('sphere', {'timestep': {'values': [0.1, 0.002]}, 'current.x': {'values': [0, 2, 1e7]}}),
+        ('bluerov2_waves', {'seed': {'values': [0, 1]}, 'current.y': {'uniform': [0, 1]}}),
+        ('x500_turbulence', {'wind.x': {'normal': [0, 4]}, 'thrust.x500': {'uniform': [0, 1]}}),
+        ('water_pendulum', {'current.x': {'normal': [0, 1]}}),  # a base without a free joint
+        ('fish', {'current.x': {'normal': [0, 1]}}),  # a gait: one by one
+    ],
+)  # fmt: skip
+def test_runs_flown_together_have_the_bits_of_a_run_alone(scene, vary):
+    sweep = sweep_of(scene=scene, runs=3, vary=vary)
+    flights = Flights(sweep)
+    total = len(flights.cases)
+    # as text: a diverged run holds NaN, which equals nothing
+    assert repr(Flights(sweep).rows(0, total)) == repr([flights.row(i) for i in range(total)])
+
+
+def test_a_run_that_fails_takes_nothing_from_the_others(tmp_path):
+    sweep = sweep_of(vary={'mass.sphere': {'values': [1, -1, -1, 2]}})
+    table = pq.read_table(conduct(sweep, tmp_path, workers=1)['table'])
+    assert table['status'].to_pylist() == ['ok', 'failed', 'failed', 'ok']
+    assert 'must be above 0' in table['message'][1].as_py()
+    heights = table['sphere.z_m'].to_pylist()
+    assert heights[1:3] == [None, None] and heights[0] > heights[3]  # the heavier one falls faster
+    # in one portion, the failed ones first
+    assert as_table(Flights(sweep).rows(1, 4))['sphere.z_m'].to_pylist() == [None, None, heights[3]]
+
+
 # ---- many runs ---------------------------------------------------------------------------------
 
 MANY = {
@@ -203,7 +235,7 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     assert not (out / 'results.parquet').exists()
     # half a portion, as a dying file system leaves it
     sorted((out / 'parts').glob('*.parquet'))[0].write_bytes(b'PAR1half')
-    result = conduct(sweep, out, workers=2)
+    result = conduct(sweep, out, workers=3)
     assert 0 < result['runs_kept_from_before'] < 80
     assert pq.read_table(result['table']).to_pylist() == Flights(sweep).rows(0, 80)
     with pytest.raises(ConfigError, match='holds the results of another sweep'):
