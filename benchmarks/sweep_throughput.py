@@ -1,10 +1,11 @@
 """
 Throughput of a sweep on threads against bare stepping.
 
-Short runs of the ROV, each with a current of its own, by `fluid_sim sweep` with its table, against
-`mj_step(model, data, n)` of such runs in one thread per core (each with its own model and data; a
-thread takes the next runs when it has done some). 10,000 runs each, in rounds that alternate, so that
-a noisy machine disturbs both alike; the ratio is that of the medians. Target: 0.9 of bare stepping.
+Short runs of the ROV, each with a current of its own, by `fluid_sim sweep` with its table,
+against `mj_step(model, data, n)` of such runs in one thread per core (each with its own model and
+data; a thread takes the next runs when it has done some). 10,000 runs each, in rounds that
+alternate, so that a noisy machine disturbs both alike; the ratio is that of the medians. Target:
+0.9 of bare stepping.
 
 What the sweep itself costs is stated apart, as processor time per run beyond bare stepping.
 """
@@ -97,7 +98,9 @@ def main() -> None:
             first, second = bare(simulations, runs, steps), swept(workers, runs)
         walls.append((first, second))
     ratios = [a.wall / b.wall for a, b in walls]
-    ratio = statistics.median(a.wall for a, _ in walls) / statistics.median(b.wall for _, b in walls)
+    ratio = statistics.median(a.wall for a, _ in walls) / statistics.median(
+        b.wall for _, b in walls
+    )
     low, _, high = statistics.quantiles(ratios, n=4)
     extra = statistics.median(b.cpu - a.cpu for a, b in walls) / runs
     print(

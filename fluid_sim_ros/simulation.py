@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from fluid_sim_ros.commanded_scene import CommandedScene
 from fluid_sim_ros.commands import CommandedWrench
 from fluid_sim_ros.engine import EnergyBalance, Largest
-from fluid_sim_ros.schedule import Event, exact
 from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene_schema import ScheduledEvent
+from fluid_sim_ros.schedule import Event, exact
 from fluid_sim_ros.snapshot import ForceTorque, Snapshot, VehicleState
 from fluid_sim_ros.step_clock import Pace, StepClock
 from fluid_sim_ros.streams import SavedStreams

@@ -42,11 +42,12 @@ class Native:
 
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
-    the interpreter lock while they run. ``look(model, data, scratch, bases, count, start, largest,
-    rows)`` raises the largest speed, tilt and distance from the start of each base;
-    ``runs`` takes many runs in one call (``many_runs.ManyRuns``). ``set_medium(model, data, wind, current) -> int`` takes
-    addresses of three numbers or 0, ``get_medium`` the same; ``enable_medium(model, data, on)``;
-    ``seed_medium(model, data, seed)``; ``flow(model, data, body, point, out)``.
+    the interpreter lock while they run, as all do. ``look(model, data, scratch, bases, count,
+    start, largest, rows)`` raises the largest speed, tilt and distance from the start of each
+    base; ``runs`` takes many runs in one call (``many_runs.ManyRuns``).
+    ``set_medium(model, data, wind, current) -> int`` takes addresses of three numbers or 0,
+    ``get_medium`` the same; ``enable_medium(model, data, on)``; ``seed_medium(model, data,
+    seed)``; ``flow(model, data, body, point, out)``.
     ``explicit_force`` and ``kinetic_energy`` take (model, data, scratch, out).
     ``thruster(model, data, actuator, out) -> int`` writes THRUSTER_VALUES and returns 1 for the
     thrust of a fluid_sim.thruster, 2 for its reaction torque, 0 for any other actuator.

@@ -195,7 +195,11 @@ def test_a_run_that_fails_takes_nothing_from_the_others(tmp_path):
     heights = table['sphere.z_m'].to_pylist()
     assert heights[1:3] == [None, None] and heights[0] > heights[3]  # the heavier one falls faster
     # in one portion, the failed ones first
-    assert as_table(Flights(sweep).rows(1, 4))['sphere.z_m'].to_pylist() == [None, None, heights[3]]
+    assert as_table(Flights(sweep).rows(1, 4))['sphere.z_m'].to_pylist() == [
+        None,
+        None,
+        heights[3],
+    ]
 
 
 # ---- many runs ---------------------------------------------------------------------------------

@@ -32,14 +32,15 @@ COLUMNS = (
     *(f'v{axis}_m_s' for axis in 'xyz'), *(f'w{axis}_rad_s' for axis in 'xyz'),
     'largest_speed_m_s', 'largest_tilt_rad', 'farthest_m',
 )  # fmt: skip
-_MOTION = slice(nat.POSITION.start, nat.ANGULAR_VELOCITY.stop)
+#: The motion in an observation row.
+MOTION = slice(nat.POSITION.start, nat.ANGULAR_VELOCITY.stop)
 
 Row = dict[str, Any]
 Array = NDArray[np.float64]
 
 
 @dataclasses.dataclass
-class _Ready:
+class Ready:
     """
     A compiled simulation, its run in steps, and the controller in its loop.
 
@@ -70,7 +71,7 @@ class Flights:
     def __init__(self, sweep: SweepFile) -> None:
         self._sweep = sweep
         self._scene = Scene.load(sweep.scene)
-        self._ready: OrderedDict[tuple[Any, ...], _Ready] = OrderedDict()
+        self._ready: OrderedDict[tuple[Any, ...], Ready] = OrderedDict()
         self._plant = plant_of(self._scene, sweep.hold.vehicle) if sweep.hold else None
         self.cases = Cases(sweep)
 
@@ -85,8 +86,8 @@ class Flights:
 
         """
         values = self.cases[0]
-        ready = self._prepare(values)
-        _start(ready.simulation, values)
+        ready = self.prepare(values)
+        start(ready.simulation, values)
         if ready.holding is not None:
             ready.holding.begin(values)
         return ready.steps
@@ -102,14 +103,14 @@ class Flights:
         for index in range(begin, end):
             values = self.cases[index]
             try:
-                ready = self._prepare(values)
+                ready = self.prepare(values)
                 if ready.many is None:
                     rows += [*self._landed(together), self.row(index)]
                     continue
                 if not together.takes(ready):
                     rows += self._landed(together)
-                _start(ready.simulation, values)
-                together.take(ready, _begun(index, values))
+                start(ready.simulation, values)
+                together.take(ready, row_begun(index, values))
             except (FluidSimError, *_UNEXPECTED):
                 rows += [*self._landed(together), self.row(index)]
         return rows + self._landed(together)
@@ -130,7 +131,7 @@ class Flights:
         ``message`` says why.
         """
         values = self.cases[index]
-        row = begin = _begun(index, values)
+        row = begin = row_begun(index, values)
         for _ in range(_TRIES):
             try:
                 return begin | self._fly(values)
@@ -142,9 +143,9 @@ class Flights:
         return row
 
     def _fly(self, values: Mapping[str, Value]) -> Row:
-        ready = self._prepare(values)
+        ready = self.prepare(values)
         simulation, holds, largest = ready.simulation, ready.holding, ready.largest
-        _start(simulation, values)
+        start(simulation, values)
         largest.begin()
         row: Row = {}
         if holds is not None:
@@ -159,10 +160,11 @@ class Flights:
         except DivergedError as error:
             row = {'status': 'diverged', 'message': str(error)}
         row['time_s'] = simulation.time
-        row |= _columns(ready, simulation.observe(forces=False), largest.values)
+        motion = simulation.observe(forces=False)[:, MOTION]
+        row |= columns(ready, motion, largest.values)
         return row if holds is None else row | holds.columns()
 
-    def _prepare(self, values: Mapping[str, Value]) -> _Ready:
+    def prepare(self, values: Mapping[str, Value]) -> Ready:
         """Return the simulation of a case, compiled at most once for equal settings."""
         masses = tuple((k, float(v)) for k, v in values.items() if k.startswith('mass.'))
         settings = {
@@ -180,29 +182,29 @@ class Flights:
 
     def _compile(
         self, settings: Mapping[str, Any], seed: int, masses: Mapping[str, float]
-    ) -> _Ready:
+    ) -> Ready:
         sweep = self._sweep
         factors = {key.removeprefix('mass.'): factor for key, factor in masses.items()}
         scene = dataclasses.replace(self._scene, masses=factors)
         simulation = Simulation(scene, seed=seed, **settings)
         timestep = simulation.timestep
-        columns = tuple(f'{name}.{key}' for name in simulation.vehicles for key in COLUMNS)
+        names = tuple(f'{name}.{key}' for name in simulation.vehicles for key in COLUMNS)
         steps = whole_steps(sweep.duration or scene.duration, timestep, "key 'duration'")
         if sweep.hold is None or self._plant is None:
             period = max(1, round(1.0 / (sweep.sample_rate * timestep)))
             undisturbed = simulation.next_change >= steps
             many = ManyRuns(simulation, steps, period, LARGEST_PORTION) if undisturbed else None
-            return _Ready(simulation, steps, period, None, simulation.largest(), columns, many)
+            return Ready(simulation, steps, period, None, simulation.largest(), names, many)
         plant, vehicle = self._plant
         holds = holding(sweep.hold, plant, vehicle.name, simulation)
         largest = simulation.largest()
-        return _Ready(simulation, steps, holds.period, holds, largest, columns, None)
+        return Ready(simulation, steps, holds.period, holds, largest, names, None)
 
 
 _FLOWS = {'wind': Simulation.set_wind, 'current': Simulation.set_current}
 
 
-def _start(simulation: Simulation, values: Mapping[str, Value]) -> None:
+def start(simulation: Simulation, values: Mapping[str, Value]) -> None:
     """Go to the start of a case, with what it changes at run time."""
     simulation.reset()
     flows: dict[str, list[float]] = {}
@@ -217,14 +219,14 @@ def _start(simulation: Simulation, values: Mapping[str, Value]) -> None:
         _FLOWS[kind](simulation, velocity)
 
 
-def _begun(index: int, values: Mapping[str, Value]) -> Row:
+def row_begun(index: int, values: Mapping[str, Value]) -> Row:
     """Return the row of a run as it begins."""
     return {'run': index, **values, 'status': 'ok', 'message': '', 'time_s': 0.0}
 
 
-def _columns(ready: _Ready, rows: Array, largest: Array) -> Row:
-    """Return what came out, from the observed rows and the largest values."""
-    out = np.concatenate((rows[:, _MOTION], largest), axis=1).ravel().tolist()
+def columns(ready: Ready, motion: Array, largest: Array) -> Row:
+    """Return what came out, from the vehicles' motion and its largest values."""
+    out = np.concatenate((motion, largest), axis=1).ravel().tolist()
     return dict(zip(ready.columns, out, strict=True))
 
 
@@ -232,15 +234,15 @@ class _Together:
     """Undisturbed runs of one model, taken up one after the other and flown in one call."""
 
     def __init__(self) -> None:
-        self._ready: _Ready | None = None
+        self._ready: Ready | None = None
         self.begun: list[Row] = []
 
-    def takes(self, ready: _Ready) -> bool:
+    def takes(self, ready: Ready) -> bool:
         """Return whether one more run of this model can join."""
         fits = self._ready is None or self._ready is ready
         return fits and len(self.begun) < LARGEST_PORTION
 
-    def take(self, ready: _Ready, begun: Row) -> None:
+    def take(self, ready: Ready, begun: Row) -> None:
         """Take up the run that the simulation stands at the start of."""
         assert ready.many is not None
         ready.many.take()
@@ -260,5 +262,5 @@ class _Together:
             if error is not None:
                 row |= {'status': 'diverged', 'message': str(error)}
             row['time_s'] = many.times[i]
-            row |= _columns(ready, many.rows[i], many.largest[i])
+            row |= columns(ready, many.rows[i][:, MOTION], many.largest[i])
         return begun

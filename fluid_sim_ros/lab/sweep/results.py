@@ -13,7 +13,6 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.sweep.flight import Row
 from fluid_sim_ros.lab.sweep.sweep_file import SweepFile, as_plain
 
-
 #: Runs from the first up to the second.
 Portion = tuple[int, int]
 
@@ -31,6 +30,8 @@ class Results:
         Made when it is not there.
     sweep
         What is run.
+    device
+        On what device, if not on the processor.
 
     Raises
     ------
@@ -39,18 +40,19 @@ class Results:
 
     """
 
-    def __init__(self, folder: Path, sweep: SweepFile) -> None:
+    def __init__(self, folder: Path, sweep: SweepFile, device: str = '') -> None:
         self._parts = folder / 'parts'
         self.table_path = folder / 'results.parquet'
         self._tables: dict[int, pa.Table] = {}
-        text = json.dumps(as_plain(sweep), indent=2) + '\n'
+        plain = as_plain(sweep) | ({'device': device} if device else {})
+        text = json.dumps(plain, indent=2) + '\n'
         stated = folder / 'sweep.json'
         try:
             self._parts.mkdir(parents=True, exist_ok=True)
             if stated.exists() and stated.read_text(encoding='utf-8') != text:
                 raise ConfigError(
-                    f'{folder}: holds the results of another sweep; choose another --out, or '
-                    'delete it'
+                    f'{folder}: holds the results of another sweep or device; choose another '
+                    '--out, or delete it'
                 )
             stated.write_text(text, encoding='utf-8')
         except OSError as error:

@@ -12,9 +12,7 @@ from fluid_sim_ros.lab.sweep.results import Portion
 from fluid_sim_ros.lab.sweep.sweep_file import SweepFile, as_plain
 
 
-def on_threads(
-    sweep: SweepFile, portions: Sequence[Portion], workers: int
-) -> Iterator[list[Row]]:
+def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> Iterator[list[Row]]:
     """
     Fly portions in threads; stepping releases Python's lock, so they run side by side.
 

@@ -16,8 +16,8 @@ FSR_API void fsr_look(const mjModel* m, const mjData* d, mjData* scratch, const 
 // Fly `runs` runs of `steps` steps, each as fsr_step and fsr_look do it: from its state (of
 // mjSTATE_INTEGRATION) in `states`, in its wind of `winds` (opt.wind, which the last one leaves in
 // the model), with a look at the `count` bases every `period` steps and at the end. A run ends at
-// its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count * width] at
-// the end, largest[3 * count], which the caller has set to zero.
+// its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count * width]
+// at the end, largest[3 * count], which the caller has set to zero.
 FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, int count, int runs,
                       int steps, int period, const double* states, const double* winds, int* done,
                       double* reports, double* rows, double* largest) {
