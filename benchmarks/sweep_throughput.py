@@ -3,7 +3,7 @@ Throughput of a sweep on threads against bare stepping.
 
 Short runs of the ROV, each with a current of its own, by `fluid_sim sweep` with its table,
 against `mj_step(model, data, n)` of such runs in one thread per core (each with its own model and
-data; a thread takes the next runs when it has done some). 10,000 runs each, in rounds that
+data; a thread takes the next runs when it has done some). 20,000 runs each, in rounds that
 alternate, so that a noisy machine disturbs both alike; the ratio is that of the medians. Target:
 0.9 of bare stepping.
 
@@ -84,7 +84,7 @@ def swept(workers: int, runs: int) -> Cost:
 def main() -> None:
     """Measure and write the result."""
     options = arguments(__doc__, 'sweep_throughput')
-    runs, rounds = (200, 2) if options.quick else (1000, 10)
+    runs, rounds = (200, 2) if options.quick else (2500, 8)
     workers = os.cpu_count() or 1
     simulations = [Simulation(_SCENE) for _ in range(workers)]
     steps = round(_SECONDS / simulations[0].timestep)

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+import types
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fluid_sim_ros import Scene, Simulation
-from fluid_sim_ros.errors import ConfigError, FluidSimError
+from fluid_sim_ros.errors import ConfigError, FluidSimError, MissingExtraError
 from fluid_sim_ros.lab.sweep.conduct import conduct
 from fluid_sim_ros.lab.sweep.flight import Flights
 from fluid_sim_ros.lab.sweep.results import as_table
@@ -86,6 +87,20 @@ def test_the_shipped_sweeps_are_sound(name):
         ('scene: sphere\nvary: {seed: {uniform: [0, 9]}}', "'seed' cannot be drawn"),
         ('scene: sphere\nvary: {gain.position: {values: [1]}}', "needs a controller: key 'hold'"),
         ('scene: sphere\nruns: 0\nvary: {seed: {values: [1]}}', "key 'runs'"),
+        ('scene: sphere\nruns: 1000000000000\nvary: {seed: {values: [1]}}', 'more than 10000000'),
+        ('scene: sphere\nvary: {wind.x: {linspace: [0, 1, 1000000000]}}', 'more than 10000000'),
+        ('scene: sphere\nvary: {wind.x: {linspace: [0, 1, 0]}}', 'linspace.2'),
+        ('scene: sphere\nvary: {wind.x: {values: [1, .nan]}}', 'must be finite'),
+        (
+            'scene: sphere\nvary: {wind.x: {uniform: [3, 1]}}',
+            "'vary.wind.x': uniform: 3 is above 1",
+        ),
+        ('scene: sphere\nvary: {wind.x: {gauss: [0, 1]}}', 'allowed: values, linspace, uniform'),
+        ('scene: sphere\nvary: {wind.x: {values: [fast]}}', "'wind.x' takes numbers, not 'fast'"),
+        ('scene: sphere\nvary: {seed: {values: [1.5]}}', "'seed' takes whole numbers"),
+        ('scene: sphere\nvary: {integrator: {values: [Euler, RK5]}}', "integrator 'RK5' is not"),
+        ('scene: sphere\nvary: {fluid: {values: [1]}}', "fluid '1.0' is not known; allowed: none"),
+        ('scene: sphere\nduration: .nan\nvary: {seed: {values: [1]}}', "key 'duration'"),
         ('scene: nowhere.xml\nvary: {seed: {values: [1]}}', 'no such file'),
     ],
 )
@@ -105,7 +120,9 @@ def test_a_faulty_file_is_one_line(tmp_path, content, line):
         ({'vary': {'wind.x': {'values': [1]}}}, 'wind: the scene is in water only'),
         ({'vary': {'mass.moon': {'values': [2]}}}, "mass of 'moon': no such body; bodies: sphere"),
         ({'vary': {'mass.sphere': {'values': [-2]}}}, 'must be above 0'),
-        ({'vary': {'integrator': {'values': ['RK5']}}}, "integrator 'RK5' is not known"),
+        ({'integrator': 'RK5'}, "integrator 'RK5' is not known"),
+        ({'vary': {'thrust.sphere': {'values': [1]}}}, 'the vehicle has no thrusters'),
+        ({'vary': {'thrust.moon': {'values': [1]}}}, "vehicle 'moon' is not in the scene"),
         ({'duration': 0.2001}, 'not a whole number of timesteps'),
         (
             {'scene': 'x500', 'hold': {'law': 'multirotor', 'target': [0, 0, 1]},
@@ -244,6 +261,26 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     assert pq.read_table(result['table']).to_pylist() == Flights(sweep).rows(0, 80)
     with pytest.raises(ConfigError, match='holds the results of another sweep'):
         conduct(sweep.model_copy(update={'seed': 4}), out)
+
+
+@pytest.mark.parametrize(
+    ('address', 'line'),
+    [
+        ('nonsense', "--ray 'nonsense': not an address; allowed: local, auto, HOST:PORT"),
+        ('', "--ray '': not an address"),
+        ('127.0.0.1:1', "--ray '127.0.0.1:1': no Ray answers there"),  # Ray would try for minutes
+    ],
+)
+def test_an_address_without_ray_is_one_line(tmp_path, monkeypatch, address, line):
+    monkeypatch.setitem(sys.modules, 'ray', types.ModuleType('ray'))  # not asked
+    with pytest.raises(ConfigError, match=line):
+        conduct(sweep_of(), tmp_path, ray_address=address)
+
+
+def test_without_ray_one_line_says_what_to_type(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, 'ray', None)
+    with pytest.raises(MissingExtraError, match=r'--ray needs ray.*fluid_sim_ros\[sweep\]'):
+        conduct(sweep_of(), tmp_path, ray_address='local')
 
 
 @pytest.mark.full

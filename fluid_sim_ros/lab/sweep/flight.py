@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.engine import Largest
-from fluid_sim_ros.errors import DivergedError, FluidSimError
+from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
 from fluid_sim_ros.lab.sweep.holding import Holding, holding
 from fluid_sim_ros.lab.sweep.sweep_file import Cases, SweepFile, Value
 from fluid_sim_ros.many_runs import ManyRuns
@@ -214,6 +214,8 @@ def start(simulation: Simulation, values: Mapping[str, Value]) -> None:
             flows.setdefault(kind, [0.0, 0.0, 0.0])['xyz'.index(name)] = float(value)
         elif kind == 'thrust':
             vehicle = simulation.vehicle(name)
+            if not vehicle.thrusters:
+                raise ConfigError(f"vary: '{key}': the vehicle has no thrusters")
             simulation.set_thrust(name, float(value) * vehicle.thrust_range[:, 1])
     for kind, velocity in flows.items():
         _FLOWS[kind](simulation, velocity)

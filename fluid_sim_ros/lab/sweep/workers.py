@@ -1,6 +1,7 @@
 """Who flies the runs of a sweep: threads of this machine, or workers of Ray."""
 
 import logging
+import socket
 import threading
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -10,6 +11,9 @@ from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.lab.sweep.flight import Flights, Row
 from fluid_sim_ros.lab.sweep.results import Portion
 from fluid_sim_ros.lab.sweep.sweep_file import SweepFile, as_plain
+
+#: How long an address may take to answer [s].
+_ANSWER_S = 5.0
 
 
 def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> Iterator[list[Row]]:
@@ -68,6 +72,8 @@ def on_ray(
             '--ray needs ray, which is not installed; type: pip install "fluid_sim_ros[sweep]"'
         ) from None
     local = address == 'local'
+    if not local:
+        _check_address(address)
     try:
         ray.init(
             address='local' if local else address, num_cpus=workers if local else None,
@@ -88,6 +94,21 @@ def on_ray(
             yield from _first(ray, flying)
     finally:
         ray.shutdown()
+
+
+def _check_address(address: str) -> None:
+    """Refuse an address where nothing answers: Ray itself would try for minutes."""
+    if address == 'auto':
+        return
+    host, _, port = address.removeprefix('ray://').rpartition(':')
+    if not host or not port.isdigit():
+        raise ConfigError(
+            f"--ray '{address}': not an address; allowed: local, auto, HOST:PORT, ray://HOST:PORT"
+        )
+    try:
+        socket.create_connection((host.strip('[]'), int(port)), timeout=_ANSWER_S).close()
+    except (OSError, OverflowError) as error:
+        raise ConfigError(f"--ray '{address}': no Ray answers there ({error})") from None
 
 
 def _first(ray: Any, flying: set[Any]) -> Iterable[list[Row]]:
