@@ -1,24 +1,27 @@
 """
 Throughput of a sweep on threads against bare stepping.
 
-Short runs of the ROV, each with a current of its own, by `fluid_sim sweep` with its table,
-against `mj_step(model, data, n)` of such runs in one thread per core (each with its own model and
-data; a thread takes the next runs when it has done some). 20,000 runs each, in rounds that
-alternate, so that a noisy machine disturbs both alike; the ratio is that of the medians. Target:
-0.9 of bare stepping.
+Short runs of the ROV, each with a current of its own, by `fluid_sim sweep` with its table, against
+`mj_step(model, data, n)` of such runs in one thread per core (each with its own model and data; a
+thread takes the next runs when it has done some). 10,000 runs each, several times; the median
+counts. Target: 0.9 of bare stepping.
 
-What the sweep itself costs is stated apart, as processor time per run beyond bare stepping.
+Sweep and bare stepping are two processes that take turns of a quarter of a second, one stopped
+while the other runs, so that a processor whose speed wanders is as fast for the one as for the
+other.
 """
 
+import multiprocessing
 import os
 import resource
+import signal
 import statistics
 import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -32,99 +35,128 @@ _SECONDS = 1.0
 _SCENE = 'rov'
 #: Runs that a thread of bare stepping takes at a time.
 _CHUNK = 10
+#: Length of a turn [s].
+_TURN = 0.25
 
 
-class Cost(NamedTuple):
-    """Wall and processor time of some runs [s]."""
+def bare(workers: int) -> Callable[[int], None]:
+    """Return what flies so many runs by bare stepping."""
+    simulations = [Simulation(_SCENE) for _ in range(workers)]
+    steps = round(_SECONDS / simulations[0].timestep)
 
-    wall: float
-    cpu: float
+    def fly(runs: int) -> None:
+        chunks = iter(range(0, runs, _CHUNK))
 
+        def loop(simulation: Simulation) -> None:
+            for begin in chunks:
+                random = np.random.default_rng(begin)
+                for _ in range(min(_CHUNK, runs - begin)):
+                    # the motions of the sweep: elsewhere a step may cost more, or less
+                    simulation.reset()
+                    simulation.set_current([random.normal(0.0, 0.5), 0.0, 0.0])
+                    mujoco.mj_step(simulation.model, simulation.data, steps)
 
-def cost_of(work: Callable[[], object]) -> Cost:
-    """Return what a call takes, all threads of this process counted."""
-    usage = resource.getrusage(resource.RUSAGE_SELF)
-    cpu, wall = usage.ru_utime + usage.ru_stime, time.perf_counter()
-    work()
-    usage = resource.getrusage(resource.RUSAGE_SELF)
-    return Cost(time.perf_counter() - wall, usage.ru_utime + usage.ru_stime - cpu)
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(loop, simulations))
 
-
-def bare(simulations: list[Simulation], runs: int, steps: int) -> Cost:
-    """Return the cost of bare stepping on threads."""
-    chunks = iter(range(0, runs, _CHUNK))
-
-    def loop(simulation: Simulation) -> None:
-        for begin in chunks:
-            random = np.random.default_rng(begin)
-            for _ in range(min(_CHUNK, runs - begin)):
-                # the motions of the sweep: elsewhere a step may cost more, or less
-                simulation.reset()
-                simulation.set_current([random.normal(0.0, 0.5), 0.0, 0.0])
-                mujoco.mj_step(simulation.model, simulation.data, steps)
-
-    with ThreadPoolExecutor(len(simulations)) as pool:
-        return cost_of(lambda: list(pool.map(loop, simulations)))
+    return fly
 
 
-def swept(workers: int, runs: int) -> Cost:
-    """Return the cost of a sweep, its table included."""
-    sweep = SweepFile.model_validate({
-        'scene': _SCENE, 'duration': _SECONDS, 'sample_rate': 5, 'runs': runs,
-        'vary': {'current.x': {'normal': [0, 0.5]}},
-    })  # fmt: skip
-    result = {}
-    with tempfile.TemporaryDirectory() as folder:
-        cost = cost_of(lambda: result.update(conduct(sweep, Path(folder), workers=workers)))
-    if result['status'] != {'ok': runs}:
-        raise SystemExit(f'runs ended badly: {result["status"]}')
-    return cost
+def swept(workers: int) -> Callable[[int], None]:
+    """Return what flies so many runs by a sweep, its table included."""
+
+    def fly(runs: int) -> None:
+        sweep = SweepFile.model_validate({
+            'scene': _SCENE, 'duration': _SECONDS, 'sample_rate': 5, 'runs': runs,
+            'vary': {'current.x': {'normal': [0, 0.5]}},
+        })  # fmt: skip
+        with tempfile.TemporaryDirectory() as folder:
+            result = conduct(sweep, Path(folder), workers=workers)
+        if result['status'] != {'ok': runs}:
+            raise SystemExit(f'runs ended badly: {result["status"]}')
+
+    return fly
+
+
+def child(
+    prepare: Callable[[int], Callable[[int], None]], workers: int, runs: int, pipe: Connection
+) -> None:
+    """Get ready, wait for the start, fly, and tell the processor time [s]."""
+    fly = prepare(workers)
+    fly(20)  # imports, caches
+    pipe.send('ready')
+    pipe.recv()
+    before = resource.getrusage(resource.RUSAGE_SELF)
+    fly(runs)
+    after = resource.getrusage(resource.RUSAGE_SELF)
+    pipe.send(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
+def take_turns(workers: int, runs: int) -> tuple[list[float], list[float]]:
+    """Return wall and processor time [s] of bare stepping and of the sweep."""
+    context = multiprocessing.get_context('spawn')
+    processes, pipes = [], []
+    for prepare in (bare, swept):
+        ours, theirs = context.Pipe()
+        process = context.Process(target=child, args=(prepare, workers, runs, theirs))
+        process.start()
+        ours.recv()  # ready
+        os.kill(process.pid, signal.SIGSTOP)
+        ours.send('go')
+        processes.append(process)
+        pipes.append(ours)
+    wall, cpu = [0.0, 0.0], [0.0, 0.0]
+    flying = [0, 1]
+    try:
+        while flying:
+            for i in list(flying):
+                os.kill(processes[i].pid, signal.SIGCONT)
+                begin = time.perf_counter()
+                done = pipes[i].poll(_TURN)
+                wall[i] += time.perf_counter() - begin
+                if done:
+                    cpu[i] = pipes[i].recv()
+                    flying.remove(i)
+                else:
+                    os.kill(processes[i].pid, signal.SIGSTOP)
+    finally:
+        for process in processes:
+            os.kill(process.pid, signal.SIGCONT)
+            process.join()
+    return wall, cpu
 
 
 def main() -> None:
     """Measure and write the result."""
     options = arguments(__doc__, 'sweep_throughput')
-    runs, rounds = (200, 2) if options.quick else (2500, 8)
+    runs, rounds = (1000, 1) if options.quick else (10_000, 3)
     workers = os.cpu_count() or 1
-    simulations = [Simulation(_SCENE) for _ in range(workers)]
-    steps = round(_SECONDS / simulations[0].timestep)
-    bare(simulations, 50, steps)
-    swept(workers, 50)  # imports, caches
-    walls: list[tuple[Cost, Cost]] = []
-    for turn in range(rounds):
-        if turn % 2:
-            second, first = swept(workers, runs), bare(simulations, runs, steps)
-        else:
-            first, second = bare(simulations, runs, steps), swept(workers, runs)
-        walls.append((first, second))
-    ratios = [a.wall / b.wall for a, b in walls]
-    ratio = statistics.median(a.wall for a, _ in walls) / statistics.median(
-        b.wall for _, b in walls
-    )
-    low, _, high = statistics.quantiles(ratios, n=4)
-    extra = statistics.median(b.cpu - a.cpu for a, b in walls) / runs
+    steps = round(_SECONDS / Simulation(_SCENE).timestep)
+    walls, cpus = zip(*(take_turns(workers, runs) for _ in range(rounds)), strict=True)
+    ratios = [bare_s / swept_s for bare_s, swept_s in walls]
+    ratio = statistics.median(ratios)
+    bare_us, swept_us = (1e6 * statistics.median(c[i] for c in cpus) / runs for i in (0, 1))
     print(
-        f'{ratio:.3f} of bare stepping on {workers} threads (half of the rounds {low:.3f} to '
-        f'{high:.3f}); {1e6 * extra:.0f} us of processor time per run beyond it'
+        f'{ratio:.3f} of bare stepping on {workers} threads (of {rounds} times: '
+        f'{min(ratios):.3f} to {max(ratios):.3f}); processor time of a run: {swept_us:.0f} us, '
+        f'bare {bare_us:.0f} us'
     )
     write(
         options.json,
         {
             'target_ratio': 0.9,
             'ratio': ratio,
-            'ratio_quartiles': [low, high],
             'ratios': ratios,
-            'runs': runs * rounds,
-            'rounds': rounds,
+            'runs': runs,
             'steps_per_run': steps,
             'workers': workers,
-            'extra_cpu_us_per_run': 1e6 * extra,
-            'bare_cpu_us_per_run': 1e6 * statistics.median(a.cpu for a, _ in walls) / runs,
-            'bare_steps_per_s': [runs * steps / a.wall for a, _ in walls],
-            'sweep_steps_per_s': [runs * steps / b.wall for _, b in walls],
-            # own processor time over what the threads could have had: below 1 where others ran
-            'bare_cores_had': [a.cpu / a.wall / workers for a, _ in walls],
-            'sweep_cores_had': [b.cpu / b.wall / workers for _, b in walls],
+            'bare_cpu_us_per_run': bare_us,
+            'sweep_cpu_us_per_run': swept_us,
+            'bare_steps_per_s': [runs * steps / wall[0] for wall in walls],
+            'sweep_steps_per_s': [runs * steps / wall[1] for wall in walls],
+            # own processor time over that of all cores: below 1 by waiting, or where others ran
+            'bare_cores_had': [c[0] / w[0] / workers for c, w in zip(cpus, walls, strict=True)],
+            'sweep_cores_had': [c[1] / w[1] / workers for c, w in zip(cpus, walls, strict=True)],
         },
     )
 

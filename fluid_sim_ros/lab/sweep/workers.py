@@ -20,9 +20,9 @@ def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> I
     """
     Fly portions in threads; stepping releases Python's lock, so they run side by side.
 
-    ``mujoco.rollout`` and ``mujoco.batch`` would not do: they know neither the schedule and gaits
-    of a scene nor a controller, and what they could spare is the hundredth of a run that is
-    Python here.
+    ``mujoco.rollout`` and ``mujoco.batch`` would not do for all: they know neither the schedule
+    and gaits of a scene nor a controller nor the watch after each step. For runs that need none of
+    this ``many_runs.ManyRuns`` does the same, and leaves little to gain.
     """
     own = threading.local()
 
