@@ -120,6 +120,8 @@ RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
 # Ray carries sweeps beyond one machine; threads need pyarrow only.
 SWEEP = ['pyarrow>=16', 'ray>=2.40,<3']
+# Sweeps of stock scenes as worlds of mujoco_warp; each minor version is tested anew.
+WARP = ['mujoco-warp>=4.0,<4.1', 'warp-lang>=1.19,<1.20', 'pyarrow>=16']
 RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
 TEST = [
     *MAVLINK,
@@ -178,6 +180,7 @@ setup(
         'record': RECORD,
         'render': RENDER,
         'sweep': SWEEP,
+        'warp': WARP,
         'charts': CHARTS,
         'test': TEST,
         'peers': PEERS,

@@ -63,7 +63,8 @@ def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+    console = Console(stderr=True)
     return Progress(
         TextColumn('{task.description}'), BarColumn(), *columns, TimeRemainingColumn(),
-        console=Console(stderr=True), transient=True,
+        console=console, transient=True, disable=not console.is_terminal,
     )  # fmt: skip

@@ -18,23 +18,36 @@ def add_parser(commands: Any, show: Show) -> None:
         '--out', metavar='FOLDER', type=Path,
         help='results; one that was begun goes on (default out/sweep/ and the name of FILE)',
     )  # fmt: skip
-    parser.add_argument('--workers', type=int, metavar='N', help='default: one per core')
+    parser.add_argument(
+        '--workers', type=int, metavar='N',
+        help='default: one per core; with --device: worlds at a time (4096 on a GPU)',
+    )  # fmt: skip
     parser.add_argument(
         '--ray', metavar='ADDRESS',
         help='run on a Ray cluster; local: as processes of this machine',
     )  # fmt: skip
+    parser.add_argument(
+        '--device', metavar='NAME',
+        help='fly a scene of stock MuJoCo as worlds of mujoco_warp on cuda:0, ... or cpu (slow), '
+        'in single precision',
+    )  # fmt: skip
 
 
 def _sweep(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
     from fluid_sim_ros.lab.sweep.conduct import conduct
     from fluid_sim_ros.lab.sweep.sweep_file import read_sweep
 
     sweep = read_sweep(arguments.file)
     out = arguments.out or Path('out/sweep') / arguments.file.stem
     with progress_bar('{task.completed}/{task.total}') as progress:
-        task = progress.add_task('runs', total=None)
+        # Warp compiles kernels before the first step, a minute in a fresh cache
+        what = f'runs on {arguments.device} (kernels are compiled first)'
+        task = progress.add_task(escape(what) if arguments.device else 'runs', total=None)
         result = conduct(
             sweep, out, workers=arguments.workers, ray_address=arguments.ray,
+            device=arguments.device,
             report=lambda done, total: progress.update(task, completed=done, total=total),
         )  # fmt: skip
     show(arguments.json, _table(result), result)
@@ -45,12 +58,19 @@ def _table(result: dict[str, Any]) -> Any:
     from rich.markup import escape
     from rich.table import Table
 
+    caption = f'every row: {result["table"]}'
+    check = result.get('against_cpu')
+    if check is not None:
+        share = check['largest_relative']
+        caption += f'\n{result["device"]}; {check["runs"]} runs flown again on the processor: ' + (
+            'all at rest' if share is None else f'at most {share:.2g} of a value apart'
+        )
     ends = ', '.join(f'{count} {status}' for status, count in result['status'].items())
     table = Table(
         'column', 'min', 'median', 'max',
         title=f'{escape(result["scene"])}: {result["runs"]} runs ({ends}) in '
         f'{result["wall_s"]:.1f} s',
-        caption=escape(f'every row: {result["table"]}'),
+        caption=escape(caption),
     )  # fmt: skip
     for name, numbers in result['columns'].items():
         table.add_row(name, *(f'{numbers[key]:.5g}' for key in ('min', 'median', 'max')))

@@ -29,7 +29,10 @@ MESSAGES = (
     'builtin_interfaces', 'diagnostic_msgs', 'geometry_msgs', 'lifecycle_msgs', 'nav_msgs',
     'rcl_interfaces', 'rosgraph_msgs', 'sensor_msgs', 'std_msgs', 'std_srvs', 'visualization_msgs',
 )  # fmt: skip
-EXTRAS = {'charts': 'matplotlib', 'record': 'mcap', 'mavlink': 'pymavlink', 'sweep': 'ray'}
+EXTRAS = {
+    'charts': 'matplotlib', 'record': 'mcap', 'mavlink': 'pymavlink', 'sweep': 'ray',
+    'warp': 'mujoco-warp',
+}  # fmt: skip
 TOOLS = {'ruff': 'ruff', 'mypy': 'mypy', 'clang-format': 'clang-format', 'colcon': 'colcon-core'}
 
 

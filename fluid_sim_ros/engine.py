@@ -53,6 +53,40 @@ class EnergyBalance:
         )
 
 
+class Largest:
+    """
+    The largest values of the vehicles' motion, looked at between steps.
+
+    Parameters
+    ----------
+    engine
+        What is looked at.
+
+    Attributes
+    ----------
+    values
+        Per vehicle the largest speed [m/s], tilt [rad] and distance from the start [m],
+        shape (n, 3).
+
+    """
+
+    def __init__(self, engine: 'Engine') -> None:
+        self._engine = engine
+        count = len(engine.observe(forces=False))
+        self._start = np.zeros((count, 3))
+        self.values = np.zeros((count, 3))
+        self._addresses = (self._start.ctypes.data, self.values.ctypes.data)
+
+    def begin(self) -> None:
+        """Start from the present state."""
+        self._start[:] = self._engine.observe(forces=False)[:, nat.POSITION]
+        self.values[:] = 0.0
+
+    def look(self) -> Array:
+        """Look at the present state; return its rows, of which only the motion is new."""
+        return self._engine.look(*self._addresses)
+
+
 class Engine:
     """
     A model and its data with every address resolved once.
@@ -80,6 +114,7 @@ class Engine:
         library = nat.native()
         self._step = library.step
         self._observe = library.observe
+        self._look = library.look
         self._report = np.zeros(2)
         self._bases = np.array(bases, dtype=np.int32)
         self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
@@ -97,21 +132,7 @@ class Engine:
 
     def divergence(self) -> DivergedError:
         """Return the error that describes the bad step which ended the last ``step``."""
-        model = self.model
-        time, dof = float(self._report[0]), int(self._report[1])
-        body = '(unknown)'
-        if 0 <= dof < model.nv:
-            body = model.body(model.dof_bodyid[dof]).name or '(unnamed)'
-        integrator = mujoco.mjtIntegrator(model.opt.integrator).name.removeprefix('mjINT_')
-        hint = f'try a timestep below {model.opt.timestep:g} s'
-        if integrator in ('EULER', 'RK4'):
-            hint += ' or the integrator implicitfast'
-        return DivergedError(
-            f"the simulation diverged at t = {time:.6g} s in body '{body}' "
-            f'({integrator}, {model.opt.timestep:g} s); {hint}',
-            time=time,
-            body=body,
-        )
+        return divergence(self.model, *self._report.tolist())
 
     def observe(self, forces: bool) -> Array:
         """
@@ -121,6 +142,11 @@ class Engine:
         it: the trajectory does not change. The array is overwritten by the next call.
         """
         self._observe(*self._observe_addresses, forces, self._rows_address)
+        return self._rows
+
+    def look(self, start: int, largest: int) -> Array:
+        """Raise the largest values (see ``Largest``), given the addresses of both arrays."""
+        self._look(*self._observe_addresses, start, largest, self._rows_address)
         return self._rows
 
     def energy_balance(self) -> EnergyBalance:
@@ -160,3 +186,20 @@ class Engine:
                 'it is of another model'
             )
         mujoco.mj_setState(self.model, self.data, state, _STATE)
+
+
+def divergence(model: mujoco.MjModel, time: float, dof: float) -> DivergedError:
+    """Return the error that describes a bad step, by its time [s] and the dof that went wrong."""
+    body = '(unknown)'
+    if 0 <= dof < model.nv:
+        body = model.body(model.dof_bodyid[int(dof)]).name or '(unnamed)'
+    integrator = mujoco.mjtIntegrator(model.opt.integrator).name.removeprefix('mjINT_')
+    hint = f'try a timestep below {model.opt.timestep:g} s'
+    if integrator in ('EULER', 'RK4'):
+        hint += ' or the integrator implicitfast'
+    return DivergedError(
+        f"the simulation diverged at t = {time:.6g} s in body '{body}' "
+        f'({integrator}, {model.opt.timestep:g} s); {hint}',
+        time=time,
+        body=body,
+    )

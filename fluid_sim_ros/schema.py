@@ -100,7 +100,7 @@ def _first_fault(schema: type[BaseModel], error: ValidationError) -> str:
         known = fault['ctx']['expected_tags'].replace("'", '')
         return f"key '{place}.model': '{fault['ctx']['tag']}' is not known; allowed: {known}"
     if isinstance(fault['input'], dict):  # a rule between keys: the whole mapping tells nothing
-        return f"key '{place}': {message}"
+        return f"key '{place}': {message}" if place else message
     return f"key '{place}': {message} (got {fault['input']!r})"
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.commanded_scene import CommandedScene
 from fluid_sim_ros.commands import CommandedWrench
-from fluid_sim_ros.engine import EnergyBalance
+from fluid_sim_ros.engine import EnergyBalance, Largest
 from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
@@ -103,6 +103,11 @@ class Simulation(CommandedScene):
         return self._step
 
     @property
+    def next_change(self) -> int:
+        """Step at which a scheduled event or a gait next takes effect (``schedule.NEVER``)."""
+        return min(self._schedule.next_step, self._gaits.next_step)
+
+    @property
     def tick(self) -> int:
         """Whole timesteps of the scene since the last reset: the step count, unless retimed."""
         return self._clock.tick(self._step)
@@ -134,7 +139,7 @@ class Simulation(CommandedScene):
         if self._clock.retimed:
             self._step_retimed(end)
             return
-        if end > min(self._schedule.next_step, self._gaits.next_step) or self._wrenches:
+        if end > self.next_change or self._wrenches:
             self._step_with_events(end)
             return
         done = self._engine_step(n)
@@ -145,7 +150,7 @@ class Simulation(CommandedScene):
     def _step_with_events(self, end: int) -> None:
         while self._step < end:
             self._begin_step(self._step)
-            stop = min(end, self._schedule.next_step, self._gaits.next_step)
+            stop = min(end, self.next_change)
             if self._wrenches:
                 # the axes of a commanded wrench turn with the body: hold them over one step only
                 stop = self._step + 1
@@ -258,6 +263,10 @@ class Simulation(CommandedScene):
             for name, row in zip(self._names, rows, strict=True)
         }
         return Snapshot(time=self.time, step=self._step, vehicles=states)
+
+    def largest(self) -> Largest:
+        """Return a watch for the largest speed, tilt and distance of each vehicle."""
+        return Largest(self._engine)
 
     def energy_balance(self) -> EnergyBalance:
         """Return kinetic energy, what the integrator feeds in, and what drag takes out."""

@@ -42,9 +42,12 @@ class Native:
 
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``); both release
-    the interpreter lock while they run. ``set_medium(model, data, wind, current) -> int`` takes
-    addresses of three numbers or 0, ``get_medium`` the same; ``enable_medium(model, data, on)``;
-    ``seed_medium(model, data, seed)``; ``flow(model, data, body, point, out)``.
+    the interpreter lock while they run, as all do. ``look(model, data, scratch, bases, count,
+    start, largest, rows)`` raises the largest speed, tilt and distance from the start of each
+    base; ``runs`` takes many runs in one call (``many_runs.ManyRuns``).
+    ``set_medium(model, data, wind, current) -> int`` takes addresses of three numbers or 0,
+    ``get_medium`` the same; ``enable_medium(model, data, on)``; ``seed_medium(model, data,
+    seed)``; ``flow(model, data, body, point, out)``.
     ``explicit_force`` and ``kinetic_energy`` take (model, data, scratch, out).
     ``thruster(model, data, actuator, out) -> int`` writes THRUSTER_VALUES and returns 1 for the
     thrust of a fluid_sim.thruster, 2 for its reaction torque, 0 for any other actuator.
@@ -65,6 +68,16 @@ class Native:
             pointer, pointer, pointer, pointer, integer, integer, pointer,
         ]  # fmt: skip
         library.fsr_observe.restype = None
+        self.look: Callable[[int, int, int, int, int, int, int, int], None] = library.fsr_look
+        library.fsr_look.argtypes = [
+            pointer, pointer, pointer, pointer, integer, pointer, pointer, pointer,
+        ]  # fmt: skip
+        library.fsr_look.restype = None
+        self.runs: Callable[..., None] = library.fsr_runs
+        library.fsr_runs.argtypes = [
+            *[pointer] * 4, *[integer] * 4, *[pointer] * 6,
+        ]  # fmt: skip
+        library.fsr_runs.restype = None
         self.set_medium: Callable[[int, int, int, int], int] = library.fsr_set_medium
         library.fsr_set_medium.argtypes = [pointer] * 4
         library.fsr_set_medium.restype = integer

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+import types
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +14,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from fluid_sim_ros import Scene, Simulation
-from fluid_sim_ros.errors import ConfigError, FluidSimError
+from fluid_sim_ros.errors import ConfigError, FluidSimError, MissingExtraError
 from fluid_sim_ros.lab.sweep.conduct import conduct
 from fluid_sim_ros.lab.sweep.flight import Flights
+from fluid_sim_ros.lab.sweep.results import as_table
 from fluid_sim_ros.lab.sweep.sweep_file import Cases, SweepFile, read_sweep
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -85,6 +87,20 @@ def test_the_shipped_sweeps_are_sound(name):
         ('scene: sphere\nvary: {seed: {uniform: [0, 9]}}', "'seed' cannot be drawn"),
         ('scene: sphere\nvary: {gain.position: {values: [1]}}', "needs a controller: key 'hold'"),
         ('scene: sphere\nruns: 0\nvary: {seed: {values: [1]}}', "key 'runs'"),
+        ('scene: sphere\nruns: 1000000000000\nvary: {seed: {values: [1]}}', 'more than 10000000'),
+        ('scene: sphere\nvary: {wind.x: {linspace: [0, 1, 1000000000]}}', 'more than 10000000'),
+        ('scene: sphere\nvary: {wind.x: {linspace: [0, 1, 0]}}', 'linspace.2'),
+        ('scene: sphere\nvary: {wind.x: {values: [1, .nan]}}', 'must be finite'),
+        (
+            'scene: sphere\nvary: {wind.x: {uniform: [3, 1]}}',
+            "'vary.wind.x': uniform: 3 is above 1",
+        ),
+        ('scene: sphere\nvary: {wind.x: {gauss: [0, 1]}}', 'allowed: values, linspace, uniform'),
+        ('scene: sphere\nvary: {wind.x: {values: [fast]}}', "'wind.x' takes numbers, not 'fast'"),
+        ('scene: sphere\nvary: {seed: {values: [1.5]}}', "'seed' takes whole numbers"),
+        ('scene: sphere\nvary: {integrator: {values: [Euler, RK5]}}', "integrator 'RK5' is not"),
+        ('scene: sphere\nvary: {fluid: {values: [1]}}', "fluid '1.0' is not known; allowed: none"),
+        ('scene: sphere\nduration: .nan\nvary: {seed: {values: [1]}}', "key 'duration'"),
         ('scene: nowhere.xml\nvary: {seed: {values: [1]}}', 'no such file'),
     ],
 )
@@ -104,7 +120,9 @@ def test_a_faulty_file_is_one_line(tmp_path, content, line):
         ({'vary': {'wind.x': {'values': [1]}}}, 'wind: the scene is in water only'),
         ({'vary': {'mass.moon': {'values': [2]}}}, "mass of 'moon': no such body; bodies: sphere"),
         ({'vary': {'mass.sphere': {'values': [-2]}}}, 'must be above 0'),
-        ({'vary': {'integrator': {'values': ['RK5']}}}, "integrator 'RK5' is not known"),
+        ({'integrator': 'RK5'}, "integrator 'RK5' is not known"),
+        ({'vary': {'thrust.sphere': {'values': [1]}}}, 'the vehicle has no thrusters'),
+        ({'vary': {'thrust.moon': {'values': [1]}}}, "vehicle 'moon' is not in the scene"),
         ({'duration': 0.2001}, 'not a whole number of timesteps'),
         (
             {'scene': 'x500', 'hold': {'law': 'multirotor', 'target': [0, 0, 1]},
@@ -166,6 +184,41 @@ def test_gains_and_errors_of_a_controller_in_the_loop():
     assert strong['hold.rms_error_m'] <= strong['hold.largest_error_m'] < 0.5
 
 
+@pytest.mark.parametrize(
+    ('scene', 'vary'),
+    [
+        ('rov', {'thrust.bluerov2_heavy': {'uniform': [-0.5, 1]}, 'current.x': {'normal': [0, 1]},
+                 'integrator': {'values': ['RK4', 'implicitfast']}}),
+        ('sphere', {'timestep': {'values': [0.1, 0.002]}, 'current.x': {'values': [0, 2, 1e7]}}),
+        ('bluerov2_waves', {'seed': {'values': [0, 1]}, 'current.y': {'uniform': [0, 1]}}),
+        ('x500_turbulence', {'wind.x': {'normal': [0, 4]}, 'thrust.x500': {'uniform': [0, 1]}}),
+        ('water_pendulum', {'current.x': {'normal': [0, 1]}}),  # a base without a free joint
+        ('fish', {'current.x': {'normal': [0, 1]}}),  # a gait: one by one
+    ],
+)  # fmt: skip
+def test_runs_flown_together_have_the_bits_of_a_run_alone(scene, vary):
+    sweep = sweep_of(scene=scene, runs=3, vary=vary)
+    flights = Flights(sweep)
+    total = len(flights.cases)
+    # as text: a diverged run holds NaN, which equals nothing
+    assert repr(Flights(sweep).rows(0, total)) == repr([flights.row(i) for i in range(total)])
+
+
+def test_a_run_that_fails_takes_nothing_from_the_others(tmp_path):
+    sweep = sweep_of(vary={'mass.sphere': {'values': [1, -1, -1, 2]}})
+    table = pq.read_table(conduct(sweep, tmp_path, workers=1)['table'])
+    assert table['status'].to_pylist() == ['ok', 'failed', 'failed', 'ok']
+    assert 'must be above 0' in table['message'][1].as_py()
+    heights = table['sphere.z_m'].to_pylist()
+    assert heights[1:3] == [None, None] and heights[0] > heights[3]  # the heavier one falls faster
+    # in one portion, the failed ones first
+    assert as_table(Flights(sweep).rows(1, 4))['sphere.z_m'].to_pylist() == [
+        None,
+        None,
+        heights[3],
+    ]
+
+
 # ---- many runs ---------------------------------------------------------------------------------
 
 MANY = {
@@ -203,11 +256,31 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     assert not (out / 'results.parquet').exists()
     # half a portion, as a dying file system leaves it
     sorted((out / 'parts').glob('*.parquet'))[0].write_bytes(b'PAR1half')
-    result = conduct(sweep, out, workers=2)
+    result = conduct(sweep, out, workers=3)
     assert 0 < result['runs_kept_from_before'] < 80
     assert pq.read_table(result['table']).to_pylist() == Flights(sweep).rows(0, 80)
     with pytest.raises(ConfigError, match='holds the results of another sweep'):
         conduct(sweep.model_copy(update={'seed': 4}), out)
+
+
+@pytest.mark.parametrize(
+    ('address', 'line'),
+    [
+        ('nonsense', "--ray 'nonsense': not an address; allowed: local, auto, HOST:PORT"),
+        ('', "--ray '': not an address"),
+        ('127.0.0.1:1', "--ray '127.0.0.1:1': no Ray answers there"),  # Ray would try for minutes
+    ],
+)
+def test_an_address_without_ray_is_one_line(tmp_path, monkeypatch, address, line):
+    monkeypatch.setitem(sys.modules, 'ray', types.ModuleType('ray'))  # not asked
+    with pytest.raises(ConfigError, match=line):
+        conduct(sweep_of(), tmp_path, ray_address=address)
+
+
+def test_without_ray_one_line_says_what_to_type(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, 'ray', None)
+    with pytest.raises(MissingExtraError, match=r'--ray needs ray.*fluid_sim_ros\[sweep\]'):
+        conduct(sweep_of(), tmp_path, ray_address='local')
 
 
 @pytest.mark.full

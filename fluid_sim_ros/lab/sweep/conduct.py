@@ -1,23 +1,24 @@
-"""Hands the runs of a sweep to threads of this machine, or to Ray."""
+"""Takes a sweep to its end: what is left to fly, by whom, and what comes out."""
 
-import logging
 import os
-import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.errors import ConfigError, MissingExtraError
-from fluid_sim_ros.lab.sweep.flight import Flights, Row
-from fluid_sim_ros.lab.sweep.results import Results, statistics
-from fluid_sim_ros.lab.sweep.sweep_file import SweepFile, as_plain
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.lab.sweep.compare import against_cpu
+from fluid_sim_ros.lab.sweep.flight import LARGEST_PORTION, Flights
+from fluid_sim_ros.lab.sweep.results import Portion, Results, gaps, statistics
+from fluid_sim_ros.lab.sweep.sweep_file import SweepFile
+from fluid_sim_ros.lab.sweep.workers import on_ray, on_threads
+from fluid_sim_ros.lab.sweep.worlds import WorldFlights
 
-#: Most runs that are lost with a killed process, and least portions per worker.
-_LARGEST_PORTION, _PORTIONS_PER_WORKER = 256, 8
+#: Most steps of a portion of more than one run: some tenths of a second of work.
+_MOST_STEPS = 100_000
+#: A portion is this part of a worker's fair share of what is left, so that all end together.
+_PARTS_OF_SHARE = 4
 
-Portion = tuple[int, int]
 #: Told of each finished portion: runs done so far, and runs in all.
 Report = Callable[[int, int], None]
 
@@ -28,12 +29,14 @@ def conduct(
     *,
     workers: int | None = None,
     ray_address: str | None = None,
+    device: str | None = None,
     report: Report = lambda done, total: None,
 ) -> dict[str, Any]:
     """
     Run a sweep to its end; what an earlier try left in ``out`` is kept.
 
-    A run's numbers depend on its index only, so the rows are the same bits whoever flies them.
+    A run's numbers depend on its index only, so the rows are the same bits whoever flies them;
+    except on a device, which has single precision.
 
     Parameters
     ----------
@@ -42,131 +45,83 @@ def conduct(
     out
         Folder of the results.
     workers
-        Threads, or Ray workers; default: one per core.
+        Threads, or Ray workers (default: one per core), or worlds at a time on a device.
     ray_address
         ``local`` starts Ray on this machine; else the address of a cluster on which this package
         is installed. None: threads.
+    device
+        Device of Warp (``cuda:0``, ``cpu``) on which mujoco_warp flies the runs as worlds.
     report
         Called after each portion.
 
     Returns
     -------
     dict
-        Numbers of runs, wall time, how the runs ended, and the range of each column.
+        Numbers of runs, wall time, how the runs ended, and the range of each column; for a device
+        also how far some runs are from the processor's (``compare.against_cpu``).
 
     Raises
     ------
     ConfigError, MissingExtraError
-        If the sweep does not fit its scene, ``out`` holds another one, or Ray is not there.
+        If the sweep does not fit its scene or the device, ``out`` holds another one, or Ray or the
+        device is not there.
 
     """
     if workers is not None and workers < 1:
         raise ConfigError(f'--workers {workers}: must be 1 or more')
-    workers = workers or os.cpu_count() or 1
+    if device is not None and ray_address is not None:
+        raise ConfigError(f'--device {device} and --ray {ray_address}: choose one of them')
     flights = Flights(sweep)
-    flights.check()
+    steps = flights.check()
+    worlds = None if device is None else WorldFlights(sweep, device, workers)
+    results = Results(out, sweep, worlds.device.description if worlds else '')
     total = len(flights.cases)
-    size = max(1, min(_LARGEST_PORTION, total // (workers * _PORTIONS_PER_WORKER)))
-    portions = [(begin, min(begin + size, total)) for begin in range(0, total, size)]
-    results = Results(out, sweep)
-    left = [portion for portion in portions if not results.has(*portion)]
+    left = gaps(results.kept(), total)
     kept = done = total - sum(end - begin for begin, end in left)
     report(done, total)
     start = time.perf_counter()
-    finished = (
-        _on_threads(sweep, left, workers)
-        if ray_address is None
-        else _on_ray(sweep, left, workers, ray_address)
-    )
-    for (begin, end), rows in finished:
-        results.add(begin, rows)
-        done += end - begin
+    if worlds is not None:
+        finished = worlds.portions(left)
+        who: dict[str, Any] = {'worlds': worlds.most, 'device': worlds.device.description}
+    else:
+        workers = workers or os.cpu_count() or 1
+        who = {'workers': workers}
+        most = min(LARGEST_PORTION, max(1, _MOST_STEPS // steps))
+        portions = _portions(left, workers, most)
+        finished = (
+            on_threads(sweep, portions, workers)
+            if ray_address is None
+            else on_ray(sweep, portions, workers, ray_address)
+        )
+    for rows in finished:
+        results.add(rows)
+        done += len(rows)
         report(done, total)
+    table = results.finish()
     wall = time.perf_counter() - start
-    table = results.finish([begin for begin, _ in portions])
-    return {
+    result = {
         'scene': sweep.scene,
         'runs': total,
         'runs_kept_from_before': kept,
-        'workers': workers,
+        **who,
         'wall_s': wall,
         'table': str(results.table_path),
         **statistics(table),
     }
+    if worlds is not None:
+        result['against_cpu'] = against_cpu(flights, table)
+    return result
 
 
-def _on_threads(
-    sweep: SweepFile, portions: Sequence[Portion], workers: int
-) -> Iterator[tuple[Portion, list[Row]]]:
-    """
-    Fly portions in threads; stepping releases Python's lock, so they run side by side.
-
-    ``mujoco.rollout`` would not do: it knows neither the schedule of a scene nor the watch after
-    each step.
-    """
-    own = threading.local()
-
-    def fly(portion: Portion) -> list[Row]:
-        if not hasattr(own, 'flights'):
-            own.flights = Flights(sweep)
-        rows: list[Row] = own.flights.rows(*portion)
-        return rows
-
-    pool = ThreadPoolExecutor(workers)
-    try:
-        futures = {pool.submit(fly, portion): portion for portion in portions}
-        for future in as_completed(futures):
-            yield futures.pop(future), future.result()
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-#: The sweep that a Ray worker runs, ready to fly: key and flights.
-_worker: dict[str, Flights] = {}
-
-
-def _fly_remotely(plain: dict[str, Any], portion: Portion) -> list[Row]:
-    key = repr(plain)
-    if key not in _worker:
-        _worker.clear()
-        _worker[key] = Flights(SweepFile.model_validate(plain))
-    return _worker[key].rows(*portion)
-
-
-def _on_ray(
-    sweep: SweepFile, portions: Sequence[Portion], workers: int, address: str
-) -> Iterator[tuple[Portion, list[Row]]]:
-    """Fly portions on a Ray cluster, which repeats those of a worker that dies."""
-    try:
-        import ray
-    except ModuleNotFoundError:
-        raise MissingExtraError(
-            '--ray needs ray, which is not installed; type: pip install "fluid_sim_ros[sweep]"'
-        ) from None
-    local = address == 'local'
-    try:
-        ray.init(
-            address='local' if local else address, num_cpus=workers if local else None,
-            include_dashboard=False if local else None, log_to_driver=False,
-            logging_level=logging.ERROR,
-        )  # fmt: skip
-    except (ConnectionError, ValueError) as error:
-        raise ConfigError(f"--ray '{address}': {str(error).splitlines()[0]}") from None
-    try:
-        fly = ray.remote(max_retries=3)(_fly_remotely)
-        plain = as_plain(sweep)
-        flying: dict[Any, Portion] = {}
-        for portion in portions:
-            flying[fly.remote(plain, portion)] = portion
-            if len(flying) >= 2 * workers:
-                yield from _first(ray, flying)
-        while flying:
-            yield from _first(ray, flying)
-    finally:
-        ray.shutdown()
-
-
-def _first(ray: Any, flying: dict[Any, Portion]) -> Iterable[tuple[Portion, list[Row]]]:
-    """Yield the portion that is ready first."""
-    (ready,), _ = ray.wait(list(flying), num_returns=1)
-    yield flying.pop(ready), ray.get(ready)
+def _portions(left: Sequence[Portion], workers: int, most: int) -> list[Portion]:
+    """Cut what is left into portions of ``most`` runs, and smaller ones at the end."""
+    cut = []
+    remaining = sum(end - begin for begin, end in left)
+    for begin, end in left:
+        while begin < end:
+            share = remaining // (workers * _PARTS_OF_SHARE)
+            size = min(max(1, share), most, end - begin)
+            cut.append((begin, begin + size))
+            begin += size
+            remaining -= size
+    return cut

@@ -9,7 +9,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.fluid_rungs import FLUID_RUNGS
+from fluid_sim_ros.scene import INTEGRATORS
 from fluid_sim_ros.schema import (
     NotNegative,
     Number,
@@ -24,6 +26,10 @@ from fluid_sim_ros.schema import (
 Value = float | int | str
 
 _SETTINGS = ('seed', 'timestep', 'integrator', 'fluid')
+#: Settings that are names; all others are numbers.
+_NAMES = {'integrator': tuple(INTEGRATORS), 'fluid': FLUID_RUNGS}
+#: Most runs of a sweep: their table is held in memory, some 300 bytes a run and vehicle.
+_MOST_RUNS = 10_000_000
 _PATTERN = re.compile(
     rf'^({"|".join(_SETTINGS)}|(wind|current)\.[xyz]|mass\.[^.]+|(thrust|gain)\.[A-Za-z0-9_]+)$'
 )
@@ -41,7 +47,7 @@ class Variation(Strict):
     ``loguniform`` (low, high) and ``normal`` (mean, standard deviation) are drawn for each run.
     """
 
-    values: Annotated[list[float | str], Field(min_length=1)] | None = None
+    values: Annotated[list[Number | str], Field(min_length=1)] | None = None
     linspace: tuple[Number, Number, Annotated[int, Field(ge=1)]] | None = None
     uniform: tuple[Number, Number] | None = None
     loguniform: tuple[Positive, Positive] | None = None
@@ -55,7 +61,23 @@ class Variation(Strict):
             raise ValueError(f'needs one of: {names}')
         if len({isinstance(value, str) for value in self.values or ()}) > 1:
             raise ValueError('values are either all numbers or all names')
+        for name in ('uniform', 'loguniform'):
+            limits = getattr(self, name)
+            if limits is not None and limits[0] > limits[1]:
+                raise ValueError(f'{name}: {limits[0]:g} is above {limits[1]:g}')
         return self
+
+    @property
+    def is_grid(self) -> bool:
+        """Whether it spans the grid, and is not drawn."""
+        return self.values is not None or self.linspace is not None
+
+    @property
+    def count(self) -> int:
+        """Points along the grid; 1 for what is drawn."""
+        if self.linspace is not None:
+            return self.linspace[2]
+        return len(self.values or (0,))
 
     @property
     def grid(self) -> list[Value]:
@@ -115,11 +137,33 @@ class SweepFile(Strict):
                 raise ValueError(f"vary: unknown key '{key}'; allowed: {_ALLOWED}")
             if key.startswith('gain.') and self.hold is None:
                 raise ValueError(f"vary: '{key}' needs a controller: key 'hold'")
-            if key in _SETTINGS and not variation.grid:
+            if key in _SETTINGS and not variation.is_grid:
                 raise ValueError(f"vary: '{key}' cannot be drawn; use values or linspace")
         if self.hold is not None and any(key.startswith('thrust.') for key in self.vary):
             raise ValueError("vary: thrust cannot vary where a controller holds ('hold')")
+        total = self.runs * math.prod(variation.count for variation in self.vary.values())
+        if total > _MOST_RUNS:
+            raise ValueError(f'{total} runs are more than {_MOST_RUNS}')
+        for key, variation in self.vary.items():
+            _check_values(key, variation.grid)
         return self
+
+
+def _check_values(key: str, values: list[Value]) -> None:
+    """Raise ValueError for a grid that a setting cannot take."""
+    if not values:
+        return
+    value = values[0]
+    if key in _NAMES:
+        for name in values:
+            if not isinstance(name, str) or name.lower() not in _NAMES[key]:
+                raise ValueError(
+                    f"vary: {key} '{name}' is not known; allowed: {listed(_NAMES[key])}"
+                )
+    elif isinstance(value, str):
+        raise ValueError(f"vary: '{key}' takes numbers, not '{value}'")
+    elif key == 'seed' and not all(float(v).is_integer() and float(v) >= 0 for v in values):
+        raise ValueError("vary: 'seed' takes whole numbers from 0 on")
 
 
 class Cases:
@@ -135,8 +179,8 @@ class Cases:
 
     def __init__(self, sweep: SweepFile) -> None:
         self._sweep = sweep
-        self._grid_keys = [key for key, variation in sweep.vary.items() if variation.grid]
-        self._drawn = {k: v for k, v in sweep.vary.items() if not v.grid}
+        self._grid_keys = [key for key, variation in sweep.vary.items() if variation.is_grid]
+        self._drawn = {k: v for k, v in sweep.vary.items() if not v.is_grid}
         self._points = list(product(*(sweep.vary[key].grid for key in self._grid_keys)))
         self.keys = tuple(sweep.vary)
 

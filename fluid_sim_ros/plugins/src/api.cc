@@ -85,6 +85,32 @@ void ObserveJointedBase(const mjModel* m, const mjData* d, int body, mjtNum* row
   mju_copy3(row + kLinearVelocity, spatial + 3);
 }
 
+// Motion of every base body; `scratch` takes the forward pass, for bases without a free joint too.
+void ObserveMotion(const mjModel* m, const mjData* d, mjData* scratch, const int* bases, int count,
+                   bool forces, double* rows) {
+  bool jointed = false;
+  for (int i = 0; i < count; ++i) jointed |= FreeJoint(m, bases[i]) < 0;
+  if (forces || jointed) {
+    mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
+    if (forces) {
+      mj_forward(m, scratch);
+      mj_rnePostConstraint(m, scratch);
+    } else {
+      mj_fwdPosition(m, scratch);
+      mj_fwdVelocity(m, scratch);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    double* row = rows + kRowWidth * i;
+    const int joint = FreeJoint(m, bases[i]);
+    if (joint >= 0) {
+      ObserveFreeBase(m, d, joint, row);
+    } else {
+      ObserveJointedBase(m, scratch, bases[i], row);
+    }
+  }
+}
+
 void StoreWrench(const Wrench& wrench_w, const mjtNum* rotation, mjtNum* target) {
   mju_mulMatTVec3(target, rotation, wrench_w.force);
   mju_mulMatTVec3(target + 3, rotation, wrench_w.torque);
@@ -172,32 +198,31 @@ FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
 // accelerations and wrenches belong to this very state and d is not touched.
 FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                          int count, int forces, double* rows) {
-  bool jointed = false;
-  for (int i = 0; i < count; ++i) jointed |= FreeJoint(m, bases[i]) < 0;
-  if (forces || jointed) {
-    mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
-    if (forces) {
-      mj_forward(m, scratch);
-      mj_rnePostConstraint(m, scratch);
-    } else {
-      mj_fwdPosition(m, scratch);
-      mj_fwdVelocity(m, scratch);
-    }
-  }
+  ObserveMotion(m, d, scratch, bases, count, forces, rows);
   for (int i = 0; i < count; ++i) {
     double* row = rows + kRowWidth * i;
-    const int joint = FreeJoint(m, bases[i]);
-    if (joint >= 0) {
-      ObserveFreeBase(m, d, joint, row);
-    } else {
-      ObserveJointedBase(m, scratch, bases[i], row);
-    }
     const Flow flow = FluidAround(m, d, bases[i], row + kPosition);
     mju_copy3(row + kMediumVelocity, flow.velocity);
     if (forces) {
       ObserveWrenches(m, scratch, bases[i], row);
       ObserveAcceleration(m, scratch, bases[i], row);
     }
+  }
+}
+
+// Look at the motion of the base bodies: raise largest[3 * i + 0..2] to the speed [m/s], the tilt
+// [rad] and the distance [m] from start[3 * i + 0..2] of base i where these are larger (NaN is
+// not), and fill the motion of `rows`; its flow and forces stay as they are.
+FSR_API void fsr_look(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
+                      int count, const double* start, double* largest, double* rows) {
+  ObserveMotion(m, d, scratch, bases, count, false, rows);
+  for (int i = 0; i < count; ++i) {
+    const double* row = rows + kRowWidth * i;
+    const double* quat = row + kQuaternion;
+    const double up = 1 - 2 * (quat[1] * quat[1] + quat[2] * quat[2]);
+    const double seen[3] = {mju_norm3(row + kLinearVelocity), std::acos(mju_clip(up, -1, 1)),
+                            mju_dist3(row + kPosition, start + 3 * i)};
+    for (int k = 0; k < 3; ++k) largest[3 * i + k] = std::fmax(largest[3 * i + k], seen[k]);
   }
 }
 
