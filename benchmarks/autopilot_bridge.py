@@ -28,6 +28,7 @@ from fluid_sim_ros.autopilot import (
     open_bridge,
 )
 from fluid_sim_ros.mavlink.hil_messages import dialect
+from fluid_sim_ros.mavlink.wire import Frame
 from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.runner import NoSource, Runner
 from fluid_sim_ros.schedule import NEVER
@@ -45,7 +46,7 @@ _ROUND = 250
 
 def px4_peer(port: int) -> None:
     """Answer every HIL_SENSOR of a connection."""
-    mav = dialect.MAVLink(None, srcSystem=1, srcComponent=1)
+    answer = Frame(dialect.MAVLink_hil_actuator_controls_message)
     controls = [HOVER] * 4 + [0.0] * 12
     client = socket.create_connection(('127.0.0.1', port))
     client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -57,8 +58,7 @@ def px4_peer(port: int) -> None:
         while at + 12 <= len(rest) and at + 12 + rest[at + 1] <= len(rest):
             if rest[at + 7] == 107:
                 (now_us,) = head.unpack_from(rest, at)
-                reply = dialect.MAVLink_hil_actuator_controls_message(now_us, controls, 129, 1)
-                client.sendall(reply.pack(mav))
+                client.sendall(answer.pack(0, 1, 1, now_us, 1, *controls, 129))
             at += 12 + rest[at + 1]
         rest = rest[at:]
 

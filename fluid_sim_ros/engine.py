@@ -134,14 +134,15 @@ class Engine:
         """Return the error that describes the bad step which ended the last ``step``."""
         return divergence(self.model, *self._report.tolist())
 
-    def observe(self, forces: bool) -> Array:
+    def observe(self, forces: bool, wrenches: bool = True) -> Array:
         """
         Return one row per base with the columns of ``plugins.native``.
 
         With ``forces`` accelerations and wrenches are evaluated at this very state, on a copy of
-        it: the trajectory does not change. The array is overwritten by the next call.
+        it: the trajectory does not change. Without ``wrenches`` only accelerations are, and the
+        columns of wrenches stay as they were. The array is overwritten by the next call.
         """
-        self._observe(*self._observe_addresses, forces, self._rows_address)
+        self._observe(*self._observe_addresses, forces + (forces and wrenches), self._rows_address)
         return self._rows
 
     def look(self, start: int, largest: int) -> Array:

@@ -54,7 +54,7 @@ class TruthReader:
 
     def read(self, forces: bool) -> Truth:
         """Return the state; with ``forces`` also the specific force at this very state."""
-        row = self._simulation.observe(forces)[self._index]
+        row = self._simulation.observe(forces, wrenches=False)[self._index]
         mujoco.mju_rotVecQuat(self._velocity_w, row[nat.LINEAR_VELOCITY], row[nat.QUATERNION])
         numbers = row.tolist()
         velocity_b = numbers[nat.LINEAR_VELOCITY]

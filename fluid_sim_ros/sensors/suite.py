@@ -91,7 +91,7 @@ class SensorSuite:
             if tick % sensor.period == 0:
                 due, forces = True, forces or sensor.needs_forces
         if due:
-            simulation.observe(forces)
+            simulation.observe(forces, wrenches=False)
         self.read(tick, simulation.time_ns)
 
     def read(self, tick: int, time_ns: int) -> None:

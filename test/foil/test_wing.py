@@ -249,7 +249,7 @@ def test_foil_term_holds_the_whole_force():
     row = np.zeros((1, nat.ROW_WIDTH))
     bases, scratch = np.array([1], dtype=np.int32), mujoco.MjData(model)
     nat.native().observe(
-        model._address, data._address, scratch._address, bases.ctypes.data, 1, 1, row.ctypes.data
+        model._address, data._address, scratch._address, bases.ctypes.data, 1, 2, row.ctypes.data
     )
     found = row[0][nat.term_columns('foil')]
     np.testing.assert_allclose(found, generalized(model, data), rtol=1e-12)

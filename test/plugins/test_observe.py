@@ -13,6 +13,7 @@ from plugin_common import (
     world,
 )
 
+from fluid_sim_ros import Simulation
 from fluid_sim_ros.plugins import native as nat
 
 SEA = {
@@ -54,7 +55,7 @@ def observe(model, data, body='hull'):
         scratch._address,
         bases.ctypes.data,
         1,
-        1,
+        2,
         rows.ctypes.data,
     )
     return rows[0], scratch
@@ -141,3 +142,17 @@ def test_medium_velocity_at_the_vehicle():
     assert list(observe(model, data)[0][nat.MEDIUM_VELOCITY]) == SEA['current']
     data.qpos[2] = 1
     assert list(observe(model, data)[0][nat.MEDIUM_VELOCITY]) == SEA['wind']
+
+
+def test_accelerations_alone_are_those_beside_the_wrenches():
+    simulation = Simulation('rov')
+    simulation.set_thrust('bluerov2_heavy', [5.0, -3.0] * 4)
+    simulation.step(20)
+    whole = simulation.observe(forces=True)[0].copy()
+    simulation.step(1)
+    alone = simulation.observe(forces=True, wrenches=False)[0].copy()
+    fresh = simulation.observe(forces=True)[0]
+    moved = slice(0, nat.MEDIUM_VELOCITY.stop)
+    np.testing.assert_array_equal(alone[moved], fresh[moved])
+    np.testing.assert_array_equal(alone[nat.TOTAL], whole[nat.TOTAL])  # left as they were
+    assert (fresh[nat.TOTAL] != whole[nat.TOTAL]).all()

@@ -118,7 +118,7 @@ def test_rotor_drag_is_in_the_term_drag_and_thrust_is_apart():
     row = np.zeros((1, nat.ROW_WIDTH))
     bases, scratch = np.array([1], dtype=np.int32), mujoco.MjData(model)
     nat.native().observe(
-        model._address, data._address, scratch._address, bases.ctypes.data, 1, 1, row.ctypes.data
+        model._address, data._address, scratch._address, bases.ctypes.data, 1, 2, row.ctypes.data
     )
     wanted = [-700 * 8.06e-5 * 2, 0, -700 * 3e-5]
     np.testing.assert_allclose(row[0][nat.term_columns('drag')][:3], wanted, rtol=1e-12)

@@ -195,7 +195,7 @@ FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
 
 // Fill one row of kRowWidth numbers per base body from the state of d.
 // With `forces` the state is copied to `scratch` and a full forward pass is made there, so that
-// accelerations and wrenches belong to this very state and d is not touched.
+// accelerations (1), and wrenches too (2), belong to this very state and d is not touched.
 FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                          int count, int forces, double* rows) {
   ObserveMotion(m, d, scratch, bases, count, forces, rows);
@@ -203,10 +203,8 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
     double* row = rows + kRowWidth * i;
     const Flow flow = FluidAround(m, d, bases[i], row + kPosition);
     mju_copy3(row + kMediumVelocity, flow.velocity);
-    if (forces) {
-      ObserveWrenches(m, scratch, bases[i], row);
-      ObserveAcceleration(m, scratch, bases[i], row);
-    }
+    if (forces) ObserveAcceleration(m, scratch, bases[i], row);
+    if (forces > 1) ObserveWrenches(m, scratch, bases[i], row);
   }
 }
 
