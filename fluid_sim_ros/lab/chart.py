@@ -1,5 +1,6 @@
 """The work-precision chart of a problem as a picture."""
 
+import statistics
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -39,9 +40,19 @@ def draw(result: dict[str, Any], path: Path) -> Path:
         note = f'{result["stands_for"]}. Reference: {result["reference"]}.'
         if chaotic:
             note += ' Chaotic: judged by its regime, not point by point.'
+        note += _about_costs(result)
         note = '\n'.join(textwrap.wrap(note, 90 * columns))
         figure.supxlabel(note, fontsize=8, color='#555555')
         return save_figure(figure, path)
+
+
+def _about_costs(result: dict[str, Any]) -> str:
+    """Return what a reader must know of the times that are drawn."""
+    wall = statistics.median(p['wall_us_per_s'] / p['cpu_us_per_s'] for p in result['points'])
+    return (
+        f' Wall time is {wall:.2f} times the processor time drawn. On the front, anything more '
+        f'accurate costs at least {result["same_cost"]["factor"]:.2f} times as much.'
+    )
 
 
 def _curves(result: dict[str, Any]) -> dict[tuple[str, str], list[dict[str, Any]]]:

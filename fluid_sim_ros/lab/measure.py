@@ -4,19 +4,16 @@ import itertools
 import math
 import os
 import platform
-import random
 import statistics
-import time
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.schedule import whole_steps
-from fluid_sim_ros.errors import ConfigError, DivergedError, listed
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.cost import ROUNDS, Curve, Report, StepCost, step_costs
 from fluid_sim_ros.lab.norms import (
     attitude_error,
     errors,
@@ -27,11 +24,10 @@ from fluid_sim_ros.lab.norms import (
 )
 from fluid_sim_ros.lab.pareto import mark_front
 from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem, Rung, fits, fly
-from fluid_sim_ros.runner import duration_steps
+from fluid_sim_ros.lab.side_by_side import side_by_side
+from fluid_sim_ros.lab.trials import Setting
+from fluid_sim_ros.schedule import whole_steps
 
-#: A timed run takes at least and at most so many steps.
-_FEWEST, _MOST = 2000, 8000
-_ORDER_SEED = 1
 #: Errors of the timestep alone are taken at this share of the run: later they fold back into
 #: the size of the motion, and show no order.
 EARLY = 0.2
@@ -42,16 +38,6 @@ _CLEAR = 30.0
 #: Larger discretisation errors are not yet asymptotic [m], [rad].
 _ASYMPTOTIC = 0.1
 _ORDER_POINTS = 3
-
-Report = Callable[[str, int, int], None]  # what is being done, how far, of how many
-
-
-class Setting(NamedTuple):
-    """One way to run a problem."""
-
-    rung: str
-    integrator: str
-    timestep: float  # [s]
 
 
 class Converged(NamedTuple):
@@ -66,15 +52,16 @@ def measure(
     *,
     integrators: Sequence[str] = INTEGRATORS,
     timesteps: Sequence[float] = (),
-    repeats: int = 3,
+    rounds: int = ROUNDS,
     report: Report = lambda what, done, total: None,
 ) -> dict[str, Any]:
     """
     Return the whole chart of a problem as data, ready for JSON.
 
-    Errors are the same to the bit at every call; processor times of stepping (on a free core
-    the wall times, and not disturbed by other programs) are medians of ``repeats`` runs in
-    interleaved order. A run that fails stays in the list, with the watchdog's line.
+    Errors are the same to the bit at every call. Times of stepping are those of ``step_costs``,
+    medians of ``rounds`` bursts in interleaved order: processor time, which other programs
+    disturb less, and by which the front is marked; and wall time. A run that fails stays in the
+    list, with the watchdog's line.
 
     Raises
     ------
@@ -87,28 +74,32 @@ def measure(
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
         whole_steps(problem.sample, timestep, f'{problem.name}: sample')
-    converged = {
-        name: _converged(problem, rung)
-        for name, rung in _counted(problem.rungs.items(), f'{problem.name}: converged', report)
-    }
+    runs = side_by_side(
+        lambda rung: _converged(problem, rung), problem.rungs.values(),
+        f'{problem.name}: converged', report,
+    )  # fmt: skip
+    converged = dict(zip(problem.rungs, runs, strict=True))
     richest = converged[problem.richest]
     reference = problem.reference(problem.times) if problem.reference else richest.states
     if reference is None:
         raise ConfigError(f'{problem.name}: no run of the richest model lasts; nothing to compare')
     finest = fly(problem, problem.rungs[problem.richest], 'RK4', problem.timesteps[-1])
     chaos = sensitivity(problem, 'RK4', problem.timesteps[-1], finest)
-    points = []
-    for setting in _counted(settings, f'{problem.name}: errors', report):
+
+    def point_of(setting: Setting) -> dict[str, Any]:
         flight = fly(problem, problem.rungs[setting.rung], setting.integrator, setting.timestep)
         own = converged[setting.rung].states
-        points.append(
-            _point(setting, flight)
-            | _errors(problem, flight, reference, own, chaotic=chaos.chaotic)
+        return _point(setting, flight) | _errors(
+            problem, flight, reference, own, chaotic=chaos.chaotic
         )
-    for point, cost in zip(points, _costs(problem, settings, repeats, report), strict=True):
-        point |= cost
+
+    points = side_by_side(point_of, settings, f'{problem.name}: errors', report)
+    costs = _costs(problem, points, rounds, report)
+    for point in points:
+        cost = costs[Curve(point['rung'], point['integrator'])]
+        point |= cost.per_second(point['timestep_s'])
     judged = 'regime' if chaos.chaotic else problem.judged_by
-    mark_front(points, judged)
+    same_cost = mark_front(points, judged)
     return {
         'problem': problem.name,
         'title': problem.title,
@@ -123,14 +114,16 @@ def measure(
             for name, run in converged.items()
         },
         'orders': orders(points, {name: run.within for name, run in converged.items()}),
-        'repeats': repeats,
+        'rounds': rounds,
+        'step_us': [{**curve._asdict(), **cost._asdict()} for curve, cost in costs.items()],
+        'same_cost': same_cost._asdict(),
         'conditions': conditions(),
         'points': points,
     }
 
 
 def conditions() -> dict[str, Any]:
-    """Return what processor times depend on."""
+    """Return what times depend on."""
     return {
         'fluid_sim_ros': __version__,
         'mujoco': mujoco.__version__,
@@ -147,14 +140,6 @@ def _settings(problem: Problem, integrators: Sequence[str]) -> list[Setting]:
             raise ConfigError(f"integrator '{name}' is not known; allowed: {listed(INTEGRATORS)}")
     names = [known[name.lower()] for name in integrators]
     return [Setting(*row) for row in itertools.product(problem.rungs, names, problem.timesteps)]
-
-
-def _counted(items: Iterable[Any], what: str, report: Report) -> Iterable[Any]:
-    rows = list(items)
-    for done, row in enumerate(rows):
-        report(what, done, len(rows))
-        yield row
-    report(what, len(rows), len(rows))
 
 
 def _converged(problem: Problem, rung: Rung) -> Converged:
@@ -229,42 +214,27 @@ def _errors(
 
 
 def _costs(
-    problem: Problem, settings: Sequence[Setting], repeats: int, report: Report
-) -> list[dict[str, float]]:
-    """Return processor times of every setting, each repeat in another order (fixed seed)."""
-    shuffled = random.Random(_ORDER_SEED)
-    measured: list[list[float]] = [[] for _ in settings]
-    order = [
-        index
-        for _ in range(repeats)
-        for index in shuffled.sample(range(len(settings)), len(settings))
-    ]
-    for index in _counted(order, f'{problem.name}: processor time', report):
-        measured[index].append(cpu_per_second(problem, settings[index]))
-    return [
-        {
-            'cpu_us_per_s': statistics.median(row),
-            'cpu_lowest_us_per_s': min(row),
-            'cpu_highest_us_per_s': max(row),
-        }
-        for row in measured
-    ]
+    problem: Problem, points: Sequence[dict[str, Any]], rounds: int, report: Report
+) -> dict[Curve, StepCost]:
+    """Return what a step costs on every curve, measured at a timestep at which it lasts."""
+    settings: dict[Curve, list[float]] = {}
+    lasting: dict[Curve, list[float]] = {}
+    for point in points:
+        curve = Curve(point['rung'], point['integrator'])
+        settings.setdefault(curve, []).append(point['timestep_s'])
+        if point['status'] == 'ok':
+            lasting.setdefault(curve, []).append(point['timestep_s'])
+    at = {curve: _timed_at(problem, lasting.get(curve) or steps[-1:])
+          for curve, steps in settings.items()}  # fmt: skip
+    return step_costs(problem, at, rounds, report)
 
 
-def cpu_per_second(problem: Problem, setting: Setting) -> float:
-    """Return processor time per simulated second [us/s] of stepping alone, up to a failure."""
-    rung, integrator, timestep = setting
-    simulation = problem.rungs[rung].simulation(integrator, timestep)
-    steps = min(duration_steps(problem.duration, timestep), _MOST)
-    spent = simulated = 0.0
-    for _ in range(max(1, _FEWEST // steps)):
-        simulation.reset()
-        begin = time.thread_time()
-        with suppress(DivergedError):
-            simulation.step(steps)
-        spent += time.thread_time() - begin
-        simulated += max(simulation.step_count, 1) * timestep
-    return spent / simulated * 1e6
+def _timed_at(problem: Problem, lasting: Sequence[float]) -> float:
+    """Return the timestep at which a curve is timed [s]."""
+    if problem.rungs[problem.richest].scene.gait:
+        return min(lasting)  # the wave of the joints is part of a second, not of a step
+    middle = problem.timesteps[len(problem.timesteps) // 2]
+    return min(lasting, key=lambda step: abs(math.log(step / middle)))
 
 
 def orders(points: Sequence[dict[str, Any]], floors: dict[str, float]) -> dict[str, Any]:

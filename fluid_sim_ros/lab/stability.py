@@ -11,8 +11,9 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.bodies import AXES, Body, Family, family
 from fluid_sim_ros.lab.boundaries import critical
+from fluid_sim_ros.lab.cost import Report
 from fluid_sim_ros.lab.fates import fate, one_step
-from fluid_sim_ros.lab.measure import Report, conditions
+from fluid_sim_ros.lab.measure import conditions
 from fluid_sim_ros.lab.problem import INTEGRATORS
 
 #: Bisection ends when the timestep is known to this factor.
