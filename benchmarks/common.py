@@ -17,11 +17,14 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / 'benchmarks' / 'results'
 
 
-def arguments(doc: str | None, name: str, parts: Sequence[str] = ()) -> argparse.Namespace:
+def arguments(
+    doc: str | None, name: str, parts: Sequence[str] = (), flags: Mapping[str, str] | None = None
+) -> argparse.Namespace:
     """
     Return ``json`` (path of the result), ``quick`` and, with ``parts``, ``only``, as given.
 
-    ``only`` names the parts to measure anew; a result keeps the others.
+    ``only`` names the parts to measure anew; a result keeps the others. ``flags`` are switches of
+    the benchmark's own, by name with what they do.
     """
     parser = argparse.ArgumentParser(description=(doc or name).strip().splitlines()[0])
     parser.add_argument('--json', type=Path, default=RESULTS / f'{name}.json')
@@ -31,6 +34,8 @@ def arguments(doc: str | None, name: str, parts: Sequence[str] = ()) -> argparse
             '--only', nargs='+', choices=parts, metavar='NAME',
             help=f'measure these anew, keep the others: {", ".join(parts)}',
         )  # fmt: skip
+    for flag, text in (flags or {}).items():
+        parser.add_argument(f'--{flag}', action='store_true', help=text)
     return parser.parse_args()
 
 

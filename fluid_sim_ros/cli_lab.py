@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.cli_advice import advice_table
+from fluid_sim_ros.cli_lab_tables import advice_table, fronts_table
 from fluid_sim_ros.cli_shared import Show, add_command, progress_bar
 from fluid_sim_ros.errors import ConfigError
 
@@ -40,6 +40,10 @@ def add_parsers(commands: Any, show: Show) -> None:
     chart.add_argument(
         '--from', dest='saved', nargs='+', type=Path, metavar='JSON',
         help='draw results of an earlier chart again, without running',
+    )  # fmt: skip
+    chart.add_argument(
+        '--time-again', action='store_true',
+        help='with --from: measure the times anew, on this machine, and keep the errors',
     )  # fmt: skip
     _add_stability(add('stability', 'map where integration is stable', _stability))
     text = 'find the cheapest fluid model, integrator and timestep for a scene'
@@ -114,8 +118,12 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.lab.chart import draw
     from fluid_sim_ros.lab.chart_page import write_chart_page
 
+    if arguments.time_again and not arguments.saved:
+        raise ConfigError('--time-again: needs --from JSON, the charts to time')
     if arguments.saved:
         found = [results.load(path, 'points') for path in arguments.saved]
+        if arguments.time_again:
+            found = _timed_again(found, 10 if arguments.quick else arguments.rounds)
     elif arguments.problem:
         found = _measured(arguments)
     else:
@@ -133,7 +141,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
     files.append(write_chart_page(found, folder / 'chart.html'))
     show(
         arguments.json,
-        _fronts(found, files),
+        fronts_table(found, files),
         {'charts': found, 'files': [str(file) for file in files]},
     )
     return 0
@@ -156,6 +164,17 @@ def _measured(arguments: argparse.Namespace) -> list[dict[str, Any]]:
                 report=report,
             )
             for each in problems
+        ]
+
+
+def _timed_again(found: list[dict[str, Any]], rounds: int) -> list[dict[str, Any]]:
+    from fluid_sim_ros.lab.catalogue import problem
+    from fluid_sim_ros.lab.measure import time_again
+
+    with progress() as report:
+        return [
+            time_again(each, problem(each['problem']), rounds=rounds, report=report)
+            for each in found
         ]
 
 
@@ -262,26 +281,3 @@ def _list_problems(arguments: argparse.Namespace, show: Show) -> int:
         table.add_row(name, escape(each.title), escape(each.stands_for))
     show(arguments.json, table, rows)
     return 0
-
-
-def _fronts(found: list[dict[str, Any]], files: list[Path]) -> Any:
-    """Return the Pareto fronts as a table."""
-    from rich.console import Group
-    from rich.markup import escape
-    from rich.table import Table
-
-    from fluid_sim_ros.lab.pareto import judged
-
-    table = Table(
-        'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
-        title='Pareto fronts',
-    )  # fmt: skip
-    for result in found:
-        front = [point for point in result['points'] if point['pareto']]
-        for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
-            table.add_row(
-                result['problem'], escape(point['rung']), point['integrator'],
-                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
-                f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
-            )  # fmt: skip
-    return Group(table, escape('\n'.join(map(str, files))))

@@ -1,50 +1,42 @@
 """Measures speed against accuracy: every rung x integrator x timestep of a problem."""
 
+import copy
 import itertools
 import math
 import os
 import platform
-import statistics
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 
 from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.convergence import (
+    Converged,
+    Flown,
+    converged_run,
+    early,
+    judged_error,
+    orders,
+)
 from fluid_sim_ros.lab.cost import ROUNDS, Curve, Report, StepCost, step_costs
 from fluid_sim_ros.lab.norms import (
-    attitude_error,
+    Sensitivity,
     errors,
-    position_error,
     regime,
     regime_error,
     sensitivity,
 )
 from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem, Rung, fits, fly
+from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem
 from fluid_sim_ros.lab.side_by_side import side_by_side
 from fluid_sim_ros.lab.trials import Setting
 from fluid_sim_ros.schedule import whole_steps
 
-#: Errors of the timestep alone are taken at this share of the run: later they fold back into
-#: the size of the motion, and show no order.
-EARLY = 0.2
-#: A run is converged when half its step changes so little [m], [rad].
-_CONVERGED = 1e-12
-#: Errors within this factor of the converged run's own uncertainty say nothing about the order.
-_CLEAR = 30.0
-#: Larger discretisation errors are not yet asymptotic [m], [rad].
-_ASYMPTOTIC = 0.1
-_ORDER_POINTS = 3
-
-
-class Converged(NamedTuple):
-    """A run of a rung at a step so fine that only the model is left, and how sure that is."""
-
-    states: Array | None  # None: no run of this rung lasts
-    within: float  # early error against the run at twice the step [m] or [rad]
+_SILENT: Report = lambda what, done, total: None  # noqa: E731 (a default of several)
 
 
 def measure(
@@ -53,7 +45,7 @@ def measure(
     integrators: Sequence[str] = INTEGRATORS,
     timesteps: Sequence[float] = (),
     rounds: int = ROUNDS,
-    report: Report = lambda what, done, total: None,
+    report: Report = _SILENT,
 ) -> dict[str, Any]:
     """
     Return the whole chart of a problem as data, ready for JSON.
@@ -74,32 +66,76 @@ def measure(
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
         whole_steps(problem.sample, timestep, f'{problem.name}: sample')
+    flown = Flown(problem)
     runs = side_by_side(
-        lambda rung: _converged(problem, rung), problem.rungs.values(),
-        f'{problem.name}: converged', report,
+        lambda rung: converged_run(flown, rung),
+        problem.rungs,
+        f'{problem.name}: converged',
+        report,
     )  # fmt: skip
     converged = dict(zip(problem.rungs, runs, strict=True))
     richest = converged[problem.richest]
     reference = problem.reference(problem.times) if problem.reference else richest.states
     if reference is None:
         raise ConfigError(f'{problem.name}: no run of the richest model lasts; nothing to compare')
-    finest = fly(problem, problem.rungs[problem.richest], 'RK4', problem.timesteps[-1])
-    chaos = sensitivity(problem, 'RK4', problem.timesteps[-1], finest)
-
-    def point_of(setting: Setting) -> dict[str, Any]:
-        flight = fly(problem, problem.rungs[setting.rung], setting.integrator, setting.timestep)
+    finest = Setting(problem.richest, 'RK4', problem.timesteps[-1])
+    # the longest runs first, so that no core is left with one at the end
+    longest_first = sorted(settings, key=lambda setting: -setting.evaluations)
+    what = f'{problem.name}: errors'
+    with ThreadPoolExecutor(1) as beside:
+        nudged = beside.submit(sensitivity, problem, 'RK4', finest.timestep, flown(finest))
+        side_by_side(flown, longest_first, what, report)
+        chaos = nudged.result()
+    points = []
+    for setting in settings:
         own = converged[setting.rung].states
-        return _point(setting, flight) | _errors(
-            problem, flight, reference, own, chaotic=chaos.chaotic
-        )
+        flight = flown(setting)
+        alone = _errors(problem, flight, reference, own, chaotic=chaos.chaotic)
+        points.append(_point(setting, flight) | alone)
+    judged = 'regime' if chaos.chaotic else problem.judged_by
+    result = _described(problem, converged, reference, chaos, judged)
+    result |= {
+        'orders': orders(points, {name: run.within for name, run in converged.items()}),
+        'points': points,
+    }
+    return _timed(result, problem, rounds, report)
 
-    points = side_by_side(point_of, settings, f'{problem.name}: errors', report)
+
+def time_again(
+    result: dict[str, Any], problem: Problem, *, rounds: int = ROUNDS, report: Report = _SILENT
+) -> dict[str, Any]:
+    """Return a chart with its times measured anew, on this machine; its errors stay."""
+    steps = sorted({point['timestep_s'] for point in result['points']}, reverse=True)
+    problem = replace(problem, timesteps=tuple(steps))
+    for point in result['points']:
+        problem.rung(point['rung'])
+    return _timed(copy.deepcopy(result), problem, rounds, report)
+
+
+def _timed(
+    result: dict[str, Any], problem: Problem, rounds: int, report: Report
+) -> dict[str, Any]:
+    """Give every point its cost, and mark the front."""
+    points = result.pop('points')
     costs = _costs(problem, points, rounds, report)
     for point in points:
         cost = costs[Curve(point['rung'], point['integrator'])]
         point |= cost.per_second(point['timestep_s'])
-    judged = 'regime' if chaos.chaotic else problem.judged_by
-    same_cost = mark_front(points, judged)
+    same_cost = mark_front(points, result['judged_by'])
+    return result | {
+        'rounds': rounds,
+        'step_us': [{**curve._asdict(), **cost._asdict()} for curve, cost in costs.items()],
+        'same_cost': same_cost._asdict(),
+        'conditions': conditions(),
+        'points': points,
+    }
+
+
+def _described(
+    problem: Problem, converged: dict[str, Converged], reference: Array, chaos: Sensitivity,
+    judged: str,
+) -> dict[str, Any]:  # fmt: skip
+    """Return what a chart says of its problem."""
     return {
         'problem': problem.name,
         'title': problem.title,
@@ -113,12 +149,6 @@ def measure(
             name: _rung(problem, run, reference, chaotic=chaos.chaotic)
             for name, run in converged.items()
         },
-        'orders': orders(points, {name: run.within for name, run in converged.items()}),
-        'rounds': rounds,
-        'step_us': [{**curve._asdict(), **cost._asdict()} for curve, cost in costs.items()],
-        'same_cost': same_cost._asdict(),
-        'conditions': conditions(),
-        'points': points,
     }
 
 
@@ -142,42 +172,11 @@ def _settings(problem: Problem, integrators: Sequence[str]) -> list[Setting]:
     return [Setting(*row) for row in itertools.product(problem.rungs, names, problem.timesteps)]
 
 
-def _converged(problem: Problem, rung: Rung) -> Converged:
-    """Run a rung by RK4 with smaller and smaller timesteps, to half the finest at most."""
-    finest = problem.timesteps[-1]
-    first, *finer = [
-        h for h in (4 * finest, 2 * finest, finest, finest / 2)
-        if fits(rung, h, problem.sample)
-    ]  # fmt: skip
-    coarse = fly(problem, rung, 'RK4', first)
-    found = Converged(None, math.inf)
-    for timestep in finer:
-        fine = fly(problem, rung, 'RK4', timestep)
-        if not (fine.fault or coarse.fault):
-            apart = _judged(problem, coarse.states, fine.states, early(problem))
-            found = Converged(fine.states, apart)
-            if apart < _CONVERGED:
-                break
-        coarse = fine
-    return found
-
-
-def early(problem: Problem) -> int:
-    """Return the index of the time at which errors of the timestep are taken."""
-    return max(1, round(EARLY * (len(problem.times) - 1)))
-
-
-def _judged(problem: Problem, states: Array, reference: Array, index: int = -1) -> float:
-    """Return the error that the problem is judged by, by default at the end."""
-    norm = attitude_error if problem.judged_by == 'attitude_rad' else position_error
-    return float(norm(states, reference)[index])
-
-
 def _rung(problem: Problem, run: Converged, reference: Array, chaotic: bool) -> dict[str, Any]:
     """Return a rung's model error: what remains when the timestep is no matter."""
     if run.states is None:
         return {'model_error': None, 'converged_within': None}
-    model = _judged(problem, run.states, reference)
+    model = judged_error(problem, run.states, reference)
     if chaotic:
         model = _regime_apart(problem, run.states, reference)
     return {'model_error': model, 'converged_within': run.within}
@@ -209,7 +208,7 @@ def _errors(
     if chaotic:
         found['regime'] = _regime_apart(problem, flight.states, reference)
         return {'error': found, 'discretisation': None}
-    alone = None if own is None else _judged(problem, flight.states, own, early(problem))
+    alone = None if own is None else judged_error(problem, flight.states, own, early(problem))
     return {'error': found, 'discretisation': alone}
 
 
@@ -235,28 +234,3 @@ def _timed_at(problem: Problem, lasting: Sequence[float]) -> float:
         return min(lasting)  # the wave of the joints is part of a second, not of a step
     middle = problem.timesteps[len(problem.timesteps) // 2]
     return min(lasting, key=lambda step: abs(math.log(step / middle)))
-
-
-def orders(points: Sequence[dict[str, Any]], floors: dict[str, float]) -> dict[str, Any]:
-    """
-    Return the order of convergence per rung and integrator, None where too few points show it.
-
-    Slope of log error over log timestep through the finest points that are clear of the converged
-    run's own uncertainty.
-    """
-    out: dict[str, dict[str, float | None]] = {}
-    for point in points:
-        out.setdefault(point['rung'], {}).setdefault(point['integrator'], None)
-    for rung, integrators in out.items():
-        for integrator in integrators:
-            rows = sorted(
-                (math.log(p['timestep_s']), math.log(p['discretisation']))
-                for p in points
-                if (p['rung'], p['integrator']) == (rung, integrator)
-                and p['discretisation'] is not None
-                and _CLEAR * max(floors[rung], 1e-14) < p['discretisation'] < _ASYMPTOTIC
-            )
-            if len(rows) >= _ORDER_POINTS:
-                steps, sizes = zip(*rows[:_ORDER_POINTS], strict=True)
-                integrators[integrator] = statistics.linear_regression(steps, sizes).slope
-    return out

@@ -1,9 +1,33 @@
-"""How ``fluid_sim advise`` shows what it found."""
+"""How ``fluid_sim chart`` and ``fluid_sim advise`` show what they found."""
 
+from pathlib import Path
 from typing import Any
 
 #: So many lines on what was not tried; all of them are in the JSON.
 _MOST = 6
+
+
+def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
+    """Return the Pareto fronts as a table."""
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.lab.pareto import judged
+
+    table = Table(
+        'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
+        title='Pareto fronts',
+    )  # fmt: skip
+    for result in found:
+        front = [point for point in result['points'] if point['pareto']]
+        for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
+            table.add_row(
+                result['problem'], escape(point['rung']), point['integrator'],
+                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
+                f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
+            )  # fmt: skip
+    return Group(table, escape('\n'.join(map(str, files))))
 
 
 def advice_table(advice: dict[str, Any], asked: str) -> Any:
