@@ -1,6 +1,7 @@
 """The subcommands of ``fluid_sim`` that belong to the laboratory."""
 
 import argparse
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -222,6 +223,8 @@ def _settings(pairs: list[str]) -> dict[str, float]:
             out[name] = float(value)
         except ValueError:
             raise ConfigError(f"--set '{pair}': must be AXIS=NUMBER") from None
+        if not math.isfinite(out[name]):
+            raise ConfigError(f"--set '{pair}': must be finite")
     return out
 
 

@@ -186,7 +186,10 @@ def _problem(scene: str | Scene, duration: float | None, rate: float) -> Problem
     own = float(richest.scene.compile().model.opt.timestep)
     steps = tuple(h for h in LADDER if h >= own * _FINEST_SHARE and fits(richest, h, 1 / rate))
     if not steps:
-        raise ConfigError(f'{problem.name}: no timestep of 1, 2, 5 times a power of ten fits it')
+        raise ConfigError(
+            f'{problem.name}: no timestep of 1, 2, 5 times a power of ten fits it and a rate of '
+            f'{rate:g} Hz'
+        )
     return replace(problem, timesteps=steps)
 
 

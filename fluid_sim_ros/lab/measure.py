@@ -58,10 +58,14 @@ def measure(
     Raises
     ------
     ConfigError
-        For an unknown integrator, or a timestep that does not divide the problem's sample.
+        For an unknown integrator, or a timestep that is not above 0 or does not divide the
+        problem's sample.
 
     """
     if timesteps:
+        for timestep in timesteps:
+            if not 0 < timestep < math.inf:
+                raise ConfigError(f'timestep {timestep:g} s: must be finite and above 0')
         problem = replace(problem, timesteps=tuple(sorted(timesteps, reverse=True)))
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
