@@ -239,7 +239,8 @@ def _described(candidate: Candidate, costs: Costs) -> dict[str, Any]:
         'error': candidate.error,
         **_cost(costs, candidate.setting),
         'fails_at_s': fails_at,
-        'margin': (fails_at or LADDER[0]) / timestep,
+        'tried_to_s': candidate.tried_to,
+        'margin': (fails_at or max(candidate.tried_to, timestep)) / timestep,
         'margin_is_a_bound': fails_at is None,
     }
 

@@ -21,6 +21,8 @@ _UNITS = {
     'regime': 'error of mean descent or frequency [-]',
 }
 _LEAST = 1e-16
+#: A slope guide is drawn so far below its curve, as a factor.
+_BELOW = 0.2
 #: Where errors span more than this, the legend finds room between them.
 _ROOMY = 1e10
 
@@ -141,10 +143,10 @@ def _timestep_alone(axes: Axes, result: dict[str, Any]) -> None:
 
 
 def _guide(axes: Axes, x: list[float], y: list[float], order: int) -> None:
-    """Draw a slope through the middle of a curve."""
+    """Draw a slope below the middle of a curve."""
     start = len(x) // 2
     span = np.array([x[start] / 4, x[start] * 4])
-    height = y[start] * (span / x[start]) ** -order
+    height = _BELOW * y[start] * (span / x[start]) ** -order
     axes.loglog(span, height, color='#777777', lw=0.8, ls=':')
     axes.annotate(
         f'slope {order}', (span[1], height[1]), fontsize=7, color='#555555',

@@ -26,6 +26,7 @@ class Candidate:
     setting: Setting
     error: float
     fails_at: float | None  # smallest timestep tried above at which the run is lost [s]
+    tried_to: float = 0.0  # largest timestep tried [s]
 
 
 def search(
@@ -119,6 +120,7 @@ def with_limit(trials: Trials, reference: Reference, candidate: Candidate) -> Ca
     if candidate.fails_at is not None:
         return candidate
     problem = trials.problem
+    tried_to = candidate.setting.timestep
     for timestep in reversed(LADDER):
         setting = candidate.setting._replace(timestep=timestep)
         fit = fits(problem.rungs[setting.rung], timestep, problem.sample)
@@ -131,4 +133,5 @@ def with_limit(trials: Trials, reference: Reference, candidate: Candidate) -> Ca
         trials.note(setting, flight, error)
         if error >= 1:
             return replace(candidate, fails_at=timestep)
-    return candidate
+        tried_to = timestep
+    return replace(candidate, tried_to=tried_to)

@@ -79,11 +79,20 @@ def test_what_is_missing_is_said():
             "metric 'beauty' is not known; allowed: pose",
         ),
         ({'tolerance': 0.1, 'rate': 1e7}, 'no timestep of 1, 2, 5 times a power of ten fits it'),
+        ({'tolerance': float('nan')}, 'tolerance nan: must be above 0 and below 1'),
+        ({'tolerance': 0.1, 'rate': 0.0}, 'rate 0 Hz: must be finite and above 0'),
+        ({'tolerance': 0.1, 'budget': -1.0}, 'budget -1 s: must be finite and above 0'),
     ],
 )
 def test_wrong_input_is_refused(arguments, message):
     with pytest.raises(ConfigError, match=message):
         advise('sphere', duration=1.0, **arguments)
+
+
+@pytest.mark.parametrize(('duration', 'words'), [(0.0, 'finite and above 0'), (1e-9, '0.01 s')])
+def test_a_duration_that_leaves_nothing_is_refused(duration, words):
+    with pytest.raises(ConfigError, match=words):
+        advise('sphere', 0.1, duration=duration)
 
 
 def test_metrics_are_relative_and_zero_for_the_same_motion():

@@ -143,6 +143,9 @@ def test_a_wrong_setting_is_refused():
         measure(case, integrators=('RK5',))
     with pytest.raises(ConfigError, match=r'stokes: sample: 0.01 s is not a whole number'):
         measure(case, timesteps=(0.003,))
+    for timestep in (0.0, -0.1, float('nan')):
+        with pytest.raises(ConfigError, match=r'timestep .* s: must be finite and above 0'):
+            measure(case, timesteps=(timestep,))
 
 
 def test_the_command_writes_files_that_can_be_drawn_again(tmp_path, capsys):
@@ -164,6 +167,23 @@ def test_the_command_writes_files_that_can_be_drawn_again(tmp_path, capsys):
     judged = [p['error']['attitude_rad'] for p in result['points']]
     np.testing.assert_array_equal([float(row['error']) for row in rows], judged)
     assert 'DATA' not in (out / 'chart.html').read_text()
+
+
+def test_times_can_be_measured_again_for_errors_that_are_there(tmp_path, capsys):
+    first, again = tmp_path / 'first', tmp_path / 'again'
+    arguments = ['chart', 'spin_down', '--timesteps', '.02', '.01', '--rounds', '2', '--out']
+    assert main([*arguments, str(first)]) == 0
+    file = str(first / 'spin_down.json')
+    arguments = ['chart', '--from', file, '--time-again', '--rounds', '3', '--out', str(again)]
+    assert main(arguments) == 0
+    capsys.readouterr()
+    old, new = (json.loads((f / 'spin_down.json').read_text()) for f in (first, again))
+    assert (old['rounds'], new['rounds']) == (2, 3)
+    for key in (*SETTING, 'error', 'discretisation', 'status'):
+        assert [p[key] for p in new['points']] == [p[key] for p in old['points']]
+    assert new['step_us'] != old['step_us']
+    assert main(['chart', '--time-again']) == 2
+    assert 'needs --from JSON' in capsys.readouterr().err
 
 
 def test_the_command_lists_the_problems(capsys):
