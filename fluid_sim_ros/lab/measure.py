@@ -108,7 +108,11 @@ def measure(
 def time_again(
     result: dict[str, Any], problem: Problem, *, rounds: int = ROUNDS, report: Report = _SILENT
 ) -> dict[str, Any]:
-    """Return a chart with its times measured anew, on this machine; its errors stay."""
+    """
+    Return a chart with its times measured anew, on this machine; its errors stay.
+
+    So does the factor within which costs are equal, unless a ratio has come near it.
+    """
     steps = sorted({point['timestep_s'] for point in result['points']}, reverse=True)
     problem = replace(problem, timesteps=tuple(steps))
     for point in result['points']:
@@ -125,7 +129,8 @@ def _timed(
     for point in points:
         cost = costs[Curve(point['rung'], point['integrator'])]
         point |= cost.per_second(point['timestep_s'])
-    same_cost = mark_front(points, result['judged_by'])
+    before = result.get('same_cost', {}).get('factor')
+    same_cost = mark_front(points, result['judged_by'], before)
     return result | {
         'rounds': rounds,
         'step_us': [{**curve._asdict(), **cost._asdict()} for curve, cost in costs.items()],

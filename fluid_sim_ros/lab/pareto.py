@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 
 #: The tie factor of a front lies in this range; a timestep's neighbours are 2 or 2.5 apart.
 FRONT_RANGE = (1.1, 2.0)
+#: A factor is kept from one measurement of a chart to the next while no ratio is so near it.
+KEPT_CLEAR = 1.03
 #: Errors closer than this share are equal: integrators that do the same to a motion.
 _SAME_ERROR = 1e-3
 
@@ -32,15 +34,23 @@ def tie(ratios: Iterable[float], limits: tuple[float, float]) -> Tie:
     return Tie(math.sqrt(below * above), math.sqrt(above / below))
 
 
+def kept(factor: float, ratios: Iterable[float]) -> Tie | None:
+    """Return a factor of an earlier measurement, None where a ratio has come near it."""
+    clear = min(
+        (max(ratio / factor, factor / ratio) for ratio in ratios if ratio > 0), default=2.0
+    )
+    return Tie(factor, clear) if clear >= KEPT_CLEAR else None
+
+
 def judged(point: dict[str, Any], by: str) -> float | None:
     """Return the error that a point is judged by, None where the run failed."""
     error = point['error']
     return None if error is None else float(error[by])
 
 
-def mark_front(points: Sequence[dict[str, Any]], by: str) -> Tie:
+def mark_front(points: Sequence[dict[str, Any]], by: str, before: float | None = None) -> Tie:
     """
-    Set ``pareto`` of every point; return the tie factor.
+    Set ``pareto`` of every point; return the tie factor, that of ``before`` while it is clear.
 
     A point is on the front where every more accurate one costs more than the tie factor times as
     much. Of points with equal errors the first one stays (the poorest model: points are in the
@@ -56,7 +66,7 @@ def mark_front(points: Sequence[dict[str, Any]], by: str) -> Tie:
         if price > FRONT_RANGE[0]
         for ratio in (price, saving)
     ]
-    found = tie(asked, FRONT_RANGE)
+    found = (kept(before, asked) if before else None) or tie(asked, FRONT_RANGE)
     for point, price, saving in zip(points, dearer, saved, strict=True):
         point['pareto'] = price > found.factor >= saving
     return found
