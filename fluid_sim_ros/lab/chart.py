@@ -23,7 +23,7 @@ _UNITS = {
 _LEAST = 1e-16
 #: A slope guide is drawn so far below its curve, as a factor.
 _BELOW = 0.2
-#: Where errors span more than this, the legend finds room between them.
+#: Where errors span more than this, the legend finds some of its room between them.
 _ROOMY = 1e10
 
 
@@ -88,8 +88,8 @@ def _total(axes: Axes, result: dict[str, Any]) -> None:
     _failures(axes, result['points'], lambda p: colors[p['rung']])
     _frame(axes, _UNITS[by], 'Error against the reference')
     low, high = axes.get_ylim()
-    if high / low < _ROOMY:  # below the curves there is room for the legend
-        axes.set_ylim(low * (low / high) ** 0.5, high)
+    room = 0.5 if high / low < _ROOMY else 0.35
+    axes.set_ylim(low * (low / high) ** room, high)  # for the legend, below the curves
     shapes = [
         Line2D([], [], color='#555555', marker=marker, ls='', mfc='none', ms=5)
         for marker in MARKERS.values()
