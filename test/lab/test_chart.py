@@ -113,6 +113,14 @@ def test_the_tie_factor_is_the_middle_of_the_widest_gap():
     assert tie([], (1.1, 2.0)).factor == pytest.approx(np.sqrt(2.2))
 
 
+def test_a_factor_is_kept_while_no_ratio_comes_near_it():
+    """Of two gaps that are about equally wide, the one of the last time stays."""
+    points = [point(10.0, 1), point(16.2, 0.9), point(32.0, 0.1)]  # gaps 1.1-1.62-1.975-2
+    assert mark_front(points, 'e').factor == pytest.approx(np.sqrt(1.1 * 1.62))
+    assert mark_front(points, 'e', before=1.8).factor == 1.8
+    assert mark_front(points, 'e', before=1.64).factor == pytest.approx(np.sqrt(1.1 * 1.62))
+
+
 def test_within_a_curve_cost_goes_exactly_with_the_number_of_steps(kirchhoff):
     for one in kirchhoff['step_us']:
         rows = [p for p in kirchhoff['points'] if (p['rung'], p['integrator']) == (
