@@ -184,7 +184,9 @@ def _problem(scene: str | Scene, duration: float | None, rate: float) -> Problem
     problem = of_scene(scene, duration)
     richest = problem.rungs[problem.richest]
     own = float(richest.scene.compile().model.opt.timestep)
-    steps = tuple(h for h in LADDER if h >= own * _FINEST_SHARE and fits(richest, h, 1 / rate))
+    steps = tuple(
+        h for h in LADDER if h >= 0.999 * own * _FINEST_SHARE and fits(richest, h, 1 / rate)
+    )
     if not steps:
         raise ConfigError(
             f'{problem.name}: no timestep of 1, 2, 5 times a power of ten fits it and a rate of '
