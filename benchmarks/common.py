@@ -18,13 +18,18 @@ RESULTS = ROOT / 'benchmarks' / 'results'
 
 
 def arguments(
-    doc: str | None, name: str, parts: Sequence[str] = (), more: Mapping[str, str] | None = None
+    doc: str | None,
+    name: str,
+    parts: Sequence[str] = (),
+    *,
+    more: Mapping[str, str] | None = None,
+    flags: Mapping[str, str] | None = None,
 ) -> argparse.Namespace:
     """
     Return ``json`` (path of the result), ``quick`` and, with ``parts``, ``only``, as given.
 
-    ``only`` names the parts to measure anew; a result keeps the others. ``more`` are further
-    options: name -> help.
+    ``only`` names the parts to measure anew; a result keeps the others. ``more`` are options of
+    the benchmark's own that take a value, ``flags`` its switches: name -> help.
     """
     parser = argparse.ArgumentParser(description=(doc or name).strip().splitlines()[0])
     parser.add_argument('--json', type=Path, default=RESULTS / f'{name}.json')
@@ -36,6 +41,8 @@ def arguments(
         )  # fmt: skip
     for option, text in (more or {}).items():
         parser.add_argument(f'--{option}', help=text)
+    for flag, text in (flags or {}).items():
+        parser.add_argument(f'--{flag}', action='store_true', help=text)
     return parser.parse_args()
 
 

@@ -80,6 +80,11 @@ def _build_parser() -> argparse.ArgumentParser:
     run.add_argument('--timestep', type=float, metavar='S', help="replaces the model's [s]")
     run.add_argument('--integrator', metavar='NAME', help='Euler, RK4, implicit, implicitfast')
     run.add_argument('--fluid', metavar='MODEL', help='none, inertia, ellipsoid, no_added_mass')
+    run.add_argument(
+        '--advised',
+        action='store_true',
+        help="take timestep, integrator and fluid from the scene's advised settings",
+    )
     run.add_argument('--seed', type=int, default=0, help='of everything random (default 0)')
     for medium in ('wind', 'current'):
         run.add_argument(
@@ -112,16 +117,21 @@ def _build_parser() -> argparse.ArgumentParser:
 
 
 def _run(arguments: argparse.Namespace, show: Show) -> int:
+    from fluid_sim_ros.cli_scene import advised_settings
     from fluid_sim_ros.headless import run_scene, summary_table
 
     if arguments.record_topics and not arguments.record:
         raise ConfigError('--record-topics needs --record PATH')
+    settings = {key: getattr(arguments, key) for key in ('timestep', 'integrator', 'fluid')}
+    if arguments.advised:
+        advised = advised_settings(arguments.scene)
+        settings = {
+            key: advised[key] if value is None else value for key, value in settings.items()
+        }
     result = run_scene(
         arguments.scene,
         duration=arguments.duration,
-        timestep=arguments.timestep,
-        integrator=arguments.integrator,
-        fluid=arguments.fluid,
+        **settings,
         seed=arguments.seed,
         wind=arguments.wind,
         current=arguments.current,
@@ -144,12 +154,17 @@ def _scenes(arguments: argparse.Namespace, show: Show) -> int:
 
     from fluid_sim_ros.scene import Scene, scene_names
 
-    table = Table('scene', 'medium', 'description', title='Scenes')
+    table = Table('scene', 'medium', 'advised', 'description', title='Scenes')
     rows = []
     for name in scene_names():
         scene = Scene.load(name)
-        rows.append({'name': name, 'medium': scene.medium, 'description': scene.description})
-        table.add_row(name, scene.medium or '', escape(scene.description))
+        advised = scene.advised
+        rows.append({
+            'name': name, 'medium': scene.medium, 'description': scene.description,
+            'advised': None if advised is None else advised.model_dump(exclude_none=True),
+        })  # fmt: skip
+        words = '' if advised is None else f'{advised.integrator} {advised.timestep * 1e3:g} ms'
+        table.add_row(name, scene.medium or '', words, escape(scene.description))
     show(arguments.json, table, rows)
     return 0
 

@@ -1,16 +1,18 @@
 """The subcommands of ``fluid_sim`` that belong to the laboratory."""
 
 import argparse
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli_lab_tables import advice_table, fronts_table
 from fluid_sim_ros.cli_shared import Show, add_command, progress_bar
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
-    from fluid_sim_ros.lab.measure import Report
+    from fluid_sim_ros.lab.cost import Report
 
 #: Exit code of advise where nothing meets the tolerance.
 NOTHING_FITS = 1
@@ -32,11 +34,17 @@ def add_parsers(commands: Any, show: Show) -> None:
     chart.add_argument('--out', metavar='FOLDER', type=Path, default=Path('out/chart'))
     chart.add_argument('--integrators', nargs='+', metavar='NAME', help='default: all five')
     chart.add_argument('--timesteps', nargs='+', type=float, metavar='S', help='[s]')
-    chart.add_argument('--repeats', type=int, default=3, help='timed runs per point (default 3)')
-    chart.add_argument('--quick', action='store_true', help='four timesteps, one timed run')
+    chart.add_argument(
+        '--rounds', type=int, default=60, help='timed bursts of steps per curve (default 60)'
+    )
+    chart.add_argument('--quick', action='store_true', help='four timesteps, ten bursts')
     chart.add_argument(
         '--from', dest='saved', nargs='+', type=Path, metavar='JSON',
         help='draw results of an earlier chart again, without running',
+    )  # fmt: skip
+    chart.add_argument(
+        '--time-again', action='store_true',
+        help='with --from: measure the times anew, on this machine, and keep the errors',
     )  # fmt: skip
     _add_stability(add('stability', 'map where integration is stable', _stability))
     text = 'find the cheapest fluid model, integrator and timestep for a scene'
@@ -80,8 +88,16 @@ def _add_advise(advise: argparse.ArgumentParser) -> None:
         help='the timestep must divide the period of control and outputs (default 100 Hz)',
     )  # fmt: skip
     advise.add_argument(
-        '--apply', action='store_true', help="write the choice into the scene's YAML file"
+        '--budget', type=float, default=50.0, metavar='S',
+        help='time for the runs (default 50 s); what it leaves out is said',
+    )  # fmt: skip
+    advise.add_argument(
+        '--apply', action='store_true', help="put the choice in force in the scene's YAML file"
     )
+    advise.add_argument(
+        '--keep', action='store_true',
+        help="write the choice into the scene's YAML file, for fluid_sim run --advised",
+    )  # fmt: skip
 
 
 @contextmanager
@@ -103,8 +119,12 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.lab.chart import draw
     from fluid_sim_ros.lab.chart_page import write_chart_page
 
+    if arguments.time_again and not arguments.saved:
+        raise ConfigError('--time-again: needs --from JSON, the charts to time')
     if arguments.saved:
         found = [results.load(path, 'points') for path in arguments.saved]
+        if arguments.time_again:
+            found = _timed_again(found, 10 if arguments.quick else arguments.rounds)
     elif arguments.problem:
         found = _measured(arguments)
     else:
@@ -122,7 +142,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
     files.append(write_chart_page(found, folder / 'chart.html'))
     show(
         arguments.json,
-        _fronts(found, files),
+        fronts_table(found, files),
         {'charts': found, 'files': [str(file) for file in files]},
     )
     return 0
@@ -141,10 +161,21 @@ def _measured(arguments: argparse.Namespace) -> list[dict[str, Any]]:
                 each,
                 integrators=arguments.integrators or INTEGRATORS,
                 timesteps=arguments.timesteps or (_QUICK if arguments.quick else ()),
-                repeats=1 if arguments.quick else arguments.repeats,
+                rounds=10 if arguments.quick else arguments.rounds,
                 report=report,
             )
             for each in problems
+        ]
+
+
+def _timed_again(found: list[dict[str, Any]], rounds: int) -> list[dict[str, Any]]:
+    from fluid_sim_ros.lab.catalogue import problem
+    from fluid_sim_ros.lab.measure import time_again
+
+    with progress() as report:
+        return [
+            time_again(each, problem(each['problem']), rounds=rounds, report=report)
+            for each in found
         ]
 
 
@@ -192,53 +223,30 @@ def _settings(pairs: list[str]) -> dict[str, float]:
             out[name] = float(value)
         except ValueError:
             raise ConfigError(f"--set '{pair}': must be AXIS=NUMBER") from None
+        if not math.isfinite(out[name]):
+            raise ConfigError(f"--set '{pair}': must be finite")
     return out
 
 
 def _advise(arguments: argparse.Namespace, show: Show) -> int:
-    from rich.console import Group
-    from rich.markup import escape
-    from rich.table import Table
+    from fluid_sim_ros.lab import advise as lab
+    from fluid_sim_ros.lab.scene_settings import apply, keep, scene_file
 
-    from fluid_sim_ros.lab.advise import advise, settings, snippet
-    from fluid_sim_ros.lab.scene_settings import apply, scene_file
-
-    if arguments.apply:
+    if arguments.apply or arguments.keep:
         scene_file(arguments.scene)
     with progress() as report:
-        advice = advise(
+        advice = lab.advise(
             arguments.scene, arguments.tolerance, duration=arguments.duration,
-            metric_name=arguments.metric, rate=arguments.rate, report=report,
+            metric_name=arguments.metric, rate=arguments.rate, budget=arguments.budget,
+            report=report,
         )  # fmt: skip
-    lines = []
-    if advice['metric'] != arguments.metric:
-        lines.append('The motion forgets its start: judged by its regime, not point by point.')
-    table = Table(
-        'fluid', 'integrator', 'timestep', 'error', 'µs per simulated s', 'fails at',
-        title=f'{advice["scene"]}: within {arguments.tolerance:g} ({advice["metric"]}), '
-        'cheapest first',
-    )  # fmt: skip
-    for each in advice['candidates']:
-        fails = f'{each["fails_at_s"] * 1e3:g} ms' if each['fails_at_s'] else ''
-        table.add_row(
-            each['rung'], each['integrator'], f'{each["timestep"] * 1e3:g} ms',
-            f'{each["error"]:.2g}', f'{each["cpu_us_per_s"]:.4g}', fails,
-        )  # fmt: skip
-    if advice['choice'] is None:
-        lines.append(f'Nothing meets {arguments.tolerance:g}: {advice["missing"]}')
-    else:
-        bound = 'at least ' if advice['choice']['margin_is_a_bound'] else ''
-        lines += [
-            f'{advice["cheaper_than_baseline"]:.3g} times cheaper than RK4 at '
-            f'{advice["baseline"]["timestep"] * 1e3:g} ms with everything on; '
-            f'{bound}{advice["choice"]["margin"]:.3g} times below the step at which it fails.',
-            snippet(advice),
-        ]
-        if arguments.apply:
-            path = apply(arguments.scene, snippet(advice), settings(advice))
-            advice['applied'] = str(path)
-            lines.append(f'written: {path}')
-    show(arguments.json, Group(table, escape('\n'.join(lines))), advice)
+    written = []
+    if arguments.keep and advice['choice']:
+        written.append(keep(arguments.scene, lab.note(advice)))
+    if arguments.apply and advice['choice']:
+        written.append(apply(arguments.scene, lab.snippet(advice), lab.settings(advice)))
+    advice['written'] = [str(path) for path in written]
+    show(arguments.json, advice_table(advice, arguments.metric), advice)
     return 0 if advice['choice'] else NOTHING_FITS
 
 
@@ -276,26 +284,3 @@ def _list_problems(arguments: argparse.Namespace, show: Show) -> int:
         table.add_row(name, escape(each.title), escape(each.stands_for))
     show(arguments.json, table, rows)
     return 0
-
-
-def _fronts(found: list[dict[str, Any]], files: list[Path]) -> Any:
-    """Return the Pareto fronts as a table."""
-    from rich.console import Group
-    from rich.markup import escape
-    from rich.table import Table
-
-    from fluid_sim_ros.lab.pareto import judged
-
-    table = Table(
-        'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
-        title='Pareto fronts',
-    )  # fmt: skip
-    for result in found:
-        front = [point for point in result['points'] if point['pareto']]
-        for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
-            table.add_row(
-                result['problem'], escape(point['rung']), point['integrator'],
-                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
-                f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
-            )  # fmt: skip
-    return Group(table, escape('\n'.join(map(str, files))))

@@ -1,11 +1,12 @@
-"""``fluid_sim doctor SCENE``: whether a scene loads, and how wind and current reach its bodies."""
+"""What the command line says of a scene: whether it loads, its flow, its advised settings."""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.doctor import Row
-from fluid_sim_ros.errors import FluidSimError, listed
+from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
+from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.weather import MEDIUM, OPTION
 
@@ -32,6 +33,25 @@ def examine_scene(scene: str | Path) -> list[Row]:
             for name in simulation.streams
         ),
     ]  # fmt: skip
+
+
+def advised_settings(scene: str | Path) -> dict[str, Any]:
+    """
+    Return timestep, integrator and fluid that a scene is advised to use, None for its own fluid.
+
+    Raises
+    ------
+    ConfigError
+        If its file holds no advice.
+
+    """
+    loaded = Scene.load(scene)
+    if loaded.advised is None:
+        raise ConfigError(
+            f'{loaded.name}: the scene has no advised settings; '
+            f'fluid_sim advise {scene} --tolerance 0.01 --keep writes them into its YAML file'
+        )
+    return {key: getattr(loaded.advised, key) for key in ('timestep', 'integrator', 'fluid')}
 
 
 def _models(models: Sequence[Any]) -> str:

@@ -6,9 +6,11 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from fluid_sim_ros.advised_schema import Advised
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.fluid_rungs import compile_spec, force_fluid
 from fluid_sim_ros.gaits import Gaits
+from fluid_sim_ros.integrators import integrator as integrator_of
 from fluid_sim_ros.mass_factors import scale_masses
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.resources import config_folder, models_folder
@@ -21,11 +23,6 @@ from fluid_sim_ros.wave_schema import Waves
 from fluid_sim_ros.weather import apply_weather
 from fluid_sim_ros.weather_files import with_files
 from fluid_sim_ros.weather_schema import CurrentModel, WindModel
-
-INTEGRATORS = {
-    name.removeprefix('mjINT_').lower(): getattr(mujoco.mjtIntegrator, name)
-    for name in mujoco.mjtIntegrator.__members__
-}
 
 
 @dataclass(frozen=True)
@@ -61,6 +58,8 @@ class Scene:
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     timestep, integrator, fluid
         In place of the model's; see ``compile``.
+    advised
+        Such settings that are known to be good enough, for whoever asks for them.
     vehicles
         Vehicle name -> how its commands map onto the model; None: every free body is a vehicle.
     masses
@@ -85,6 +84,7 @@ class Scene:
     timestep: float | None = None
     integrator: str | None = None
     fluid: str | None = None
+    advised: Advised | None = None
     masses: dict[str, float] = field(default_factory=dict)
 
     @classmethod
@@ -156,7 +156,7 @@ class Scene:
                 raise ConfigError(f'timestep {timestep} s: must be finite and above 0')
             spec.option.timestep = timestep
         if integrator is not None:
-            spec.option.integrator = _integrator(integrator)
+            spec.option.integrator = integrator_of(integrator)
         dry = None
         if fluid == 'none':  # wind and current still may be commanded, to no effect
             dry = streams_of(compile_spec(spec, self.model_path), self.medium)
@@ -255,6 +255,7 @@ def _from_yaml(path: Path) -> Scene:
         timestep=content.timestep,
         integrator=content.integrator,
         fluid=content.fluid,
+        advised=content.advised,
     )
 
 
@@ -276,12 +277,6 @@ def _raise_waves(spec: mujoco.MjSpec, keys: dict[str, str], name: str) -> None:
             'give it a fluid_sim.medium with surface'
         )
     media[0].config = {**media[0].config, **keys}
-
-
-def _integrator(name: str) -> mujoco.mjtIntegrator:
-    if name.lower() not in INTEGRATORS:
-        raise ConfigError(f"integrator '{name}' is not known; allowed: {listed(INTEGRATORS)}")
-    return INTEGRATORS[name.lower()]
 
 
 def _check_schedule(scene: Scene, vehicles: dict[str, Vehicle]) -> None:

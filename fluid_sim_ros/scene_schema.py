@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from fluid_sim_ros.advised_schema import Advised
 from fluid_sim_ros.schema import Name, NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.sensor_schema import SensorsFile
 from fluid_sim_ros.wave_schema import Waves
@@ -84,6 +85,7 @@ class SceneFile(Strict):
     timestep: Positive | None = None
     integrator: str | None = None
     fluid: str | None = None
+    advised: Advised | None = None
     duration: Positive = 10.0
     keyframe: str | None = None
     home: Home = Home()

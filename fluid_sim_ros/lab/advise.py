@@ -1,31 +1,32 @@
 """The advisor: the cheapest rung x integrator x timestep that is accurate enough for a scene."""
 
 import math
-import statistics
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.measure import Report, Setting, conditions, cpu_per_second
+from fluid_sim_ros.lab.cost import Curve, Report, StepCost, step_costs
+from fluid_sim_ros.lab.manoeuvre import judged_part
+from fluid_sim_ros.lab.measure import conditions
 from fluid_sim_ros.lab.metrics import METRICS, metric
-from fluid_sim_ros.lab.pareto import SAME_TIME
+from fluid_sim_ros.lab.pareto import tie
 from fluid_sim_ros.lab.problem import Problem, fits, fly, of_scene
-from fluid_sim_ros.lab.search import (
-    LADDER,
-    Candidate,
-    Reference,
-    find_reference,
-    search,
-    with_limit,
-)
+from fluid_sim_ros.lab.reference import Reference, find_reference
+from fluid_sim_ros.lab.search import LADDER, Candidate, search, with_limit
+from fluid_sim_ros.lab.trials import Setting, Trials
 from fluid_sim_ros.scene import Scene
 
 #: How far below the model's own timestep the search goes.
 _FINEST_SHARE = 0.1
-_REPEATS = 3
 #: What the choice is compared with: everything on, RK4.
 _BASELINE = 1e-3  # [s]
+#: The tie factor of the choice lies in this range.
+_TIE_RANGE = (1.05, 1.35)
+#: Time for runs [s], without the seconds in which costs are measured.
+BUDGET = 50.0
+
+Costs = Mapping[Curve, StepCost]
 
 
 def advise(
@@ -35,6 +36,7 @@ def advise(
     duration: float | None = None,
     metric_name: str = 'pose',
     rate: float = 100.0,
+    budget: float = BUDGET,
     report: Report = lambda what, done, total: None,
 ) -> dict[str, Any]:
     """
@@ -43,57 +45,68 @@ def advise(
     Parameters
     ----------
     scene
-        Name, path, or ``Scene``; its own manoeuvre is run.
+        Name, path, or ``Scene``; its own manoeuvre is run, until a vehicle touches the ground.
     tolerance
         Largest relative error against the richest model's converged run, see ``metrics``.
     duration
         Simulated time [s]; default: the scene's.
     metric_name
-        One of METRICS; a chaotic motion is judged by ``regime`` whatever this says.
+        One of METRICS; a chaotic motion of which refinements do not agree is judged by ``regime``.
     rate
         The timestep must divide its period: of control and outputs [Hz].
+    budget
+        Time for runs [s]; what it leaves out is said.
 
     Raises
     ------
     ConfigError
-        For wrong input, or a scene of which no run lasts.
+        For wrong input, a scene in which nothing happens, or one of which no run lasts.
 
     """
-    if not 0 < tolerance < 1:
-        raise ConfigError(f'tolerance {tolerance:g}: must be above 0 and below 1 (0.01 is 1 %)')
-    if metric_name not in METRICS:
-        raise ConfigError(f"metric '{metric_name}' is not known; allowed: {listed(METRICS)}")
+    _check(tolerance, metric_name, rate, budget)
     problem = _problem(scene, duration, rate)
-    reference = find_reference(problem, tolerance, metric_name, report)
-    named = scene.name if isinstance(scene, Scene) else scene
-    candidates, refused = search(problem, reference, tolerance, report)
-    if reference.within > tolerance:
-        candidates = []  # what they are compared with is not known well enough
+    own = float(problem.rungs[problem.richest].scene.compile().model.opt.timestep)
+    first = max((h for h in problem.timesteps if h <= own), default=problem.timesteps[-1])
+    judged = judged_part(problem, first)
+    problem = replace(problem, duration=judged.duration)
+    trials = Trials(problem, budget)
+    reference = find_reference(trials, first, tolerance, metric_name, report)
+    candidates: list[Candidate] = []
+    refused: list[dict[str, Any]] = []
+    if reference.known(tolerance):
+        candidates, refused = search(trials, reference, tolerance, report)
     baseline = _baseline(problem, candidates)
-    costs = _timed(problem, [each.setting for each in candidates] + [baseline], report)
+    costs = _costs(problem, [each.setting for each in candidates] + [baseline], report)
     ranked = _ranked(candidates, costs, list(problem.rungs))
-    ranked[:2] = [with_limit(problem, reference, each) for each in ranked[:2]]
+    ranked[:2] = [with_limit(trials, reference, each) for each in ranked[:2]]
+    described = [_described(each, costs) for each in ranked]
+    its_cost = _cost(costs, baseline)
     return {
         'scene': problem.name,
-        'command': f'fluid_sim advise {named} --tolerance {tolerance:g}'
-        + (f' --duration {duration:g}' if duration is not None else ''),
+        'command': _command(scene, tolerance, duration, metric_name, rate),
         'tolerance': tolerance,
         'metric': reference.metric_name,
         'duration_s': problem.duration,
+        'note': judged.note,
         'rate_hz': rate,
         'reference': {
-            'integrator': reference.integrator,
-            'timestep_s': reference.timestep,
-            'within': reference.within,
+            'integrator': reference.setting.integrator,
+            'timestep_s': reference.setting.timestep,
+            'within': reference.within if math.isfinite(reference.within) else None,
+            'refinements': reference.refinements,
             **reference.sensitivity.as_dict(),
         },
-        'choice': _described(ranked[0], costs, problem) if ranked else None,
-        'runner_up': _described(ranked[1], costs, problem) if len(ranked) > 1 else None,
-        'candidates': [_described(each, costs, problem) for each in ranked],
+        'choice': described[0] if ranked else None,
+        'runner_up': described[1] if len(ranked) > 1 else None,
+        'candidates': described,
         'refused': refused,
-        'baseline': {**baseline._asdict(), 'cpu_us_per_s': costs[baseline]},
-        'cheaper_than_baseline': costs[baseline] / costs[ranked[0].setting] if ranked else None,
-        'missing': '' if ranked else _missing(refused, reference, tolerance),
+        'tried': trials.tried,
+        'not_tried': trials.not_tried,
+        'baseline': {**baseline._asdict(), **its_cost},
+        'cheaper_than_baseline': (
+            its_cost['cpu_us_per_s'] / described[0]['cpu_us_per_s'] if ranked else None
+        ),
+        'missing': '' if ranked else _missing(trials, refused, reference, tolerance),
         'conditions': conditions(),
     }
 
@@ -110,31 +123,10 @@ def verify(scene: str | Scene, advice: dict[str, Any]) -> dict[str, Any]:
     error = math.inf
     if not lost:
         error = metric(advice['metric'], problem, finer.states)(chosen.states, finer.states)
-    return {'rung': richer, 'error': error, 'within': error <= advice['tolerance'], 'fault': lost}
-
-
-def _ranked(
-    candidates: Sequence[Candidate], costs: dict[Setting, float], rungs: Sequence[str]
-) -> list[Candidate]:
-    """Return the candidates, cheapest first; of equal costs, the poorest model, then the best."""
-    left, out = list(candidates), []
-    while left:
-        limit = SAME_TIME * min(costs[each.setting] for each in left)
-        equal = [each for each in left if costs[each.setting] <= limit]
-        out.append(min(equal, key=lambda each: (rungs.index(each.setting.rung), each.error)))
-        left.remove(out[-1])
-    return out
-
-
-def _baseline(problem: Problem, candidates: Sequence[Candidate]) -> Setting:
-    """Return RK4 with everything on, at 1 ms or the largest step below at which it lasts."""
-    fails = [
-        each.fails_at
-        for each in candidates
-        if each.fails_at and each.setting[:2] == (problem.richest, 'RK4')
-    ]
-    limit = min([_BASELINE, *(0.99 * step for step in fails)])
-    return Setting(problem.richest, 'RK4', max(h for h in (*LADDER, 1e-7) if h <= limit))
+    return {
+        'rung': richer, 'timestep': choice['timestep'] / 4, 'fault': lost,
+        'error': error if math.isfinite(error) else None, 'within': error <= advice['tolerance'],
+    }  # fmt: skip
 
 
 def settings(advice: dict[str, Any]) -> dict[str, Any]:
@@ -145,59 +137,135 @@ def settings(advice: dict[str, Any]) -> dict[str, Any]:
 
 
 def snippet(advice: dict[str, Any]) -> str:
-    """Return the lines for the scene's YAML file."""
+    """Return the lines that put the choice in force in the scene's YAML file."""
     choice = advice['choice']
     head = f'# {advice["command"]}: error {choice["error"]:.2g} ({advice["metric"]})\n'
     return head + ''.join(f'{key}: {value}\n' for key, value in settings(advice).items())
 
 
+def note(advice: dict[str, Any]) -> str:
+    """Return the lines that keep the choice in the scene's YAML file, as its advised settings."""
+    rows = {
+        'command': advice['command'],
+        'tolerance': advice['tolerance'],
+        'metric': advice['metric'],
+        'error': float(f'{advice["choice"]["error"]:.2g}'),
+        **settings(advice),
+    }
+    return 'advised:\n' + ''.join(f'  {key}: {value}\n' for key, value in rows.items())
+
+
+def _check(tolerance: float, metric_name: str, rate: float, budget: float) -> None:
+    if not 0 < tolerance < 1:
+        raise ConfigError(f'tolerance {tolerance:g}: must be above 0 and below 1 (0.01 is 1 %)')
+    if metric_name not in METRICS:
+        raise ConfigError(f"metric '{metric_name}' is not known; allowed: {listed(METRICS)}")
+    for name, value, unit in (('rate', rate, 'Hz'), ('budget', budget, 's')):
+        if not 0 < value < math.inf:
+            raise ConfigError(f'{name} {value:g} {unit}: must be finite and above 0')
+
+
+def _command(
+    scene: str | Scene, tolerance: float, duration: float | None, metric_name: str, rate: float
+) -> str:
+    named = scene.name if isinstance(scene, Scene) else scene
+    command = f'fluid_sim advise {named} --tolerance {tolerance:g}'
+    if duration is not None:
+        command += f' --duration {duration:g}'
+    if metric_name != 'pose':
+        command += f' --metric {metric_name}'
+    return command if rate == 100 else f'{command} --rate {rate:g}'
+
+
 def _problem(scene: str | Scene, duration: float | None, rate: float) -> Problem:
     """Return the scene's problem with the timesteps that fit the rate, its events and gaits."""
+    if duration is not None and not 0 < duration < math.inf:
+        raise ConfigError(f'duration {duration:g} s: must be finite and above 0')
     problem = of_scene(scene, duration)
     richest = problem.rungs[problem.richest]
     own = float(richest.scene.compile().model.opt.timestep)
-    steps = tuple(h for h in LADDER if h >= own * _FINEST_SHARE and fits(richest, h, 1 / rate))
+    steps = tuple(
+        h for h in LADDER if h >= 0.999 * own * _FINEST_SHARE and fits(richest, h, 1 / rate)
+    )
     if not steps:
-        raise ConfigError(f'{problem.name}: no timestep of 1, 2, 5 times a power of ten fits it')
+        raise ConfigError(
+            f'{problem.name}: no timestep of 1, 2, 5 times a power of ten fits it and a rate of '
+            f'{rate:g} Hz'
+        )
     return replace(problem, timesteps=steps)
 
 
-def _timed(problem: Problem, settings: Sequence[Setting], report: Report) -> dict[Setting, float]:
-    """Return the median processor time per simulated second [us/s], repeats interleaved."""
-    rows: dict[Setting, list[float]] = {setting: [] for setting in settings}
-    for repeat in range(_REPEATS):
-        for done, setting in enumerate(rows):
-            report(
-                f'{problem.name}: processor time', repeat * len(rows) + done, _REPEATS * len(rows)
-            )
-            rows[setting].append(cpu_per_second(problem, setting))
-    report(f'{problem.name}: processor time', 1, 1)
-    return {setting: statistics.median(times) for setting, times in rows.items()}
+def _baseline(problem: Problem, candidates: Sequence[Candidate]) -> Setting:
+    """Return RK4 with everything on, at 1 ms or the largest step below that is good enough."""
+    richest = problem.rungs[problem.richest]
+    good = [
+        each.setting.timestep
+        for each in candidates
+        if each.setting[:2] == (problem.richest, 'RK4')
+    ]
+    most = min([_BASELINE, *good])
+    fitting = (h for h in (*LADDER, 1e-7) if h <= most and fits(richest, h, problem.sample))
+    return Setting(problem.richest, 'RK4', max(fitting, default=problem.timesteps[-1]))
 
 
-def _described(
-    candidate: Candidate, costs: dict[Setting, float], problem: Problem
-) -> dict[str, Any]:
+def _costs(problem: Problem, settings: Sequence[Setting], report: Report) -> Costs:
+    at = {Curve(*setting[:2]): setting.timestep for setting in reversed(settings)}
+    return step_costs(problem, at, report=report)
+
+
+def _cost(costs: Costs, setting: Setting) -> dict[str, float]:
+    found = costs[Curve(*setting[:2])].per_second(setting.timestep)
+    return {key: found[key] for key in ('cpu_us_per_s', 'wall_us_per_s')}
+
+
+def _ranked(
+    candidates: Sequence[Candidate], costs: Costs, rungs: Sequence[str]
+) -> list[Candidate]:
+    """Return the candidates, cheapest first; of equal costs, the poorest model, then the best."""
+    price = {each.setting: _cost(costs, each.setting)['cpu_us_per_s'] for each in candidates}
+    left, out = list(candidates), []
+    while left:
+        least = min(price[each.setting] for each in left)
+        over = {each.setting: price[each.setting] / least for each in left}
+        same = tie(over.values(), _TIE_RANGE).factor
+        equal = [each for each in left if over[each.setting] < same]
+        out.append(min(equal, key=lambda each: (rungs.index(each.setting.rung), each.error)))
+        left.remove(out[-1])
+    return out
+
+
+def _described(candidate: Candidate, costs: Costs) -> dict[str, Any]:
     timestep, fails_at = candidate.setting.timestep, candidate.fails_at
     return {
         **candidate.setting._asdict(),
         'error': candidate.error,
-        'cpu_us_per_s': costs[candidate.setting],
+        **_cost(costs, candidate.setting),
         'fails_at_s': fails_at,
-        'margin': (fails_at or LADDER[0]) / timestep,
+        'tried_to_s': candidate.tried_to,
+        'margin': (fails_at or max(candidate.tried_to, timestep)) / timestep,
         'margin_is_a_bound': fails_at is None,
     }
 
 
-def _missing(refused: Sequence[dict[str, Any]], reference: Reference, tolerance: float) -> str:
+def _missing(
+    trials: Trials, refused: Sequence[dict[str, Any]], reference: Reference, tolerance: float
+) -> str:
     """Return one line on what stands between the scene and the tolerance."""
-    if reference.within > tolerance:
+    late = any('budget' in row['why'] for row in trials.not_tried)
+    more = ', or a larger --budget' if late else ''
+    setting = reference.setting
+    if not reference.known(tolerance):
+        within = f'to {reference.within:.2g} only' if math.isfinite(reference.within) else 'once'
         return (
-            f'the richest model is known to {reference.within:.2g} only '
-            f'(RK4, {reference.timestep:g} s); give a larger tolerance or a shorter --duration'
+            f'the richest model is known {within} ({setting.integrator}, {setting.timestep:g} s); '
+            f'give a larger tolerance, or a shorter --duration{more}'
         )
-    best = min(refused, key=lambda row: float(row['error']))
+    tried = [row for row in refused if row['error'] is not None]
+    if not tried:
+        return f'no run lasts on the timesteps tried; give a smaller --rate{more}'
+    best = min(tried, key=lambda row: float(row['error']))
     return (
         f'the closest is {best["rung"]} by {best["integrator"]} at {best["timestep"]:g} s with '
-        f'{best["error"]:.2g}: a smaller timestep than {reference.timestep:g} s is needed'
+        f'{best["error"]:.2g}: a timestep below {trials.problem.timesteps[-1]:g} s is '
+        f'needed{more}'
     )

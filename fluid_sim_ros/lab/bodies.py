@@ -83,6 +83,9 @@ class Body:
         unknown = [name for name in known if name not in AXES]
         if unknown:
             raise ConfigError(f"axis '{unknown[0]}' is not known; allowed: {listed(AXES)}")
+        for name, value in known.items():
+            if not 0 < value < np.inf:
+                raise ConfigError(f'{name} {value:g}: must be above 0 and finite')
         if {'density_ratio', 'added_mass_ratio'} <= known.keys():
             raise ConfigError('density_ratio and added_mass_ratio set the same thing; give one')
         ratio = known.pop('added_mass_ratio', None)

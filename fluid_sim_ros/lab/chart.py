@@ -1,5 +1,6 @@
 """The work-precision chart of a problem as a picture."""
 
+import statistics
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,9 @@ _UNITS = {
     'regime': 'error of mean descent or frequency [-]',
 }
 _LEAST = 1e-16
-#: Where errors span more than this, the legend finds room between them.
+#: A slope guide is drawn so far below its curve, as a factor.
+_BELOW = 0.2
+#: Where errors span more than this, the legend finds some of its room between them.
 _ROOMY = 1e10
 
 
@@ -39,9 +42,19 @@ def draw(result: dict[str, Any], path: Path) -> Path:
         note = f'{result["stands_for"]}. Reference: {result["reference"]}.'
         if chaotic:
             note += ' Chaotic: judged by its regime, not point by point.'
+        note += _about_costs(result)
         note = '\n'.join(textwrap.wrap(note, 90 * columns))
         figure.supxlabel(note, fontsize=8, color='#555555')
         return save_figure(figure, path)
+
+
+def _about_costs(result: dict[str, Any]) -> str:
+    """Return what a reader must know of the times that are drawn."""
+    wall = statistics.median(p['wall_us_per_s'] / p['cpu_us_per_s'] for p in result['points'])
+    return (
+        f' Wall time is {wall:.2f} times the processor time drawn. On the front, anything more '
+        f'accurate costs at least {result["same_cost"]["factor"]:.2f} times as much.'
+    )
 
 
 def _curves(result: dict[str, Any]) -> dict[tuple[str, str], list[dict[str, Any]]]:
@@ -75,8 +88,8 @@ def _total(axes: Axes, result: dict[str, Any]) -> None:
     _failures(axes, result['points'], lambda p: colors[p['rung']])
     _frame(axes, _UNITS[by], 'Error against the reference')
     low, high = axes.get_ylim()
-    if high / low < _ROOMY:  # below the curves there is room for the legend
-        axes.set_ylim(low * (low / high) ** 0.5, high)
+    room = 0.5 if high / low < _ROOMY else 0.35
+    axes.set_ylim(low * (low / high) ** room, high)  # for the legend, below the curves
     shapes = [
         Line2D([], [], color='#555555', marker=marker, ls='', mfc='none', ms=5)
         for marker in MARKERS.values()
@@ -130,10 +143,10 @@ def _timestep_alone(axes: Axes, result: dict[str, Any]) -> None:
 
 
 def _guide(axes: Axes, x: list[float], y: list[float], order: int) -> None:
-    """Draw a slope through the middle of a curve."""
+    """Draw a slope below the middle of a curve."""
     start = len(x) // 2
     span = np.array([x[start] / 4, x[start] * 4])
-    height = y[start] * (span / x[start]) ** -order
+    height = _BELOW * y[start] * (span / x[start]) ** -order
     axes.loglog(span, height, color='#777777', lw=0.8, ls=':')
     axes.annotate(
         f'slope {order}', (span[1], height[1]), fontsize=7, color='#555555',

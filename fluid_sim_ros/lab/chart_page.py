@@ -76,7 +76,8 @@ def _text(point: dict[str, Any], error: float | None) -> str:
     setting = f'{point["rung"]}, {point["integrator"]}, {point["timestep_s"] * 1e3:g} ms'
     cost = (
         f'{point["cpu_us_per_s"]:.4g} µs per s '
-        f'({point["cpu_lowest_us_per_s"]:.4g} to {point["cpu_highest_us_per_s"]:.4g})'
+        f'(quartiles {point["cpu_quartile_low_us_per_s"]:.4g}, '
+        f'{point["cpu_quartile_high_us_per_s"]:.4g}; wall {point["wall_us_per_s"]:.4g})'
     )
     outcome = point['fault'] or ('no converged run' if error is None else f'error {error:.3g}')
     return f'{setting}: {cost}, {outcome}'

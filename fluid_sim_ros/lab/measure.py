@@ -1,64 +1,42 @@
 """Measures speed against accuracy: every rung x integrator x timestep of a problem."""
 
+import copy
 import itertools
 import math
 import os
 import platform
-import random
-import statistics
-import time
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.errors import ConfigError, DivergedError, listed
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.convergence import (
+    Converged,
+    Flown,
+    converged_run,
+    early,
+    judged_error,
+    orders,
+)
+from fluid_sim_ros.lab.cost import ROUNDS, Curve, Report, StepCost, step_costs
 from fluid_sim_ros.lab.norms import (
-    attitude_error,
+    Sensitivity,
     errors,
-    position_error,
     regime,
     regime_error,
     sensitivity,
 )
 from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem, Rung, fits, fly
-from fluid_sim_ros.runner import duration_steps
+from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem
+from fluid_sim_ros.lab.side_by_side import side_by_side
+from fluid_sim_ros.lab.trials import Setting
 from fluid_sim_ros.schedule import whole_steps
 
-#: A timed run takes at least and at most so many steps.
-_FEWEST, _MOST = 2000, 8000
-_ORDER_SEED = 1
-#: Errors of the timestep alone are taken at this share of the run: later they fold back into
-#: the size of the motion, and show no order.
-EARLY = 0.2
-#: A run is converged when half its step changes so little [m], [rad].
-_CONVERGED = 1e-12
-#: Errors within this factor of the converged run's own uncertainty say nothing about the order.
-_CLEAR = 30.0
-#: Larger discretisation errors are not yet asymptotic [m], [rad].
-_ASYMPTOTIC = 0.1
-_ORDER_POINTS = 3
-
-Report = Callable[[str, int, int], None]  # what is being done, how far, of how many
-
-
-class Setting(NamedTuple):
-    """One way to run a problem."""
-
-    rung: str
-    integrator: str
-    timestep: float  # [s]
-
-
-class Converged(NamedTuple):
-    """A run of a rung at a step so fine that only the model is left, and how sure that is."""
-
-    states: Array | None  # None: no run of this rung lasts
-    within: float  # early error against the run at twice the step [m] or [rad]
+_SILENT: Report = lambda what, done, total: None  # noqa: E731 (a default of several)
 
 
 def measure(
@@ -66,49 +44,107 @@ def measure(
     *,
     integrators: Sequence[str] = INTEGRATORS,
     timesteps: Sequence[float] = (),
-    repeats: int = 3,
-    report: Report = lambda what, done, total: None,
+    rounds: int = ROUNDS,
+    report: Report = _SILENT,
 ) -> dict[str, Any]:
     """
     Return the whole chart of a problem as data, ready for JSON.
 
-    Errors are the same to the bit at every call; processor times of stepping (on a free core
-    the wall times, and not disturbed by other programs) are medians of ``repeats`` runs in
-    interleaved order. A run that fails stays in the list, with the watchdog's line.
+    Errors are the same to the bit at every call. Times of stepping are those of ``step_costs``,
+    medians of ``rounds`` bursts in interleaved order: processor time, which other programs
+    disturb less, and by which the front is marked; and wall time. A run that fails stays in the
+    list, with the watchdog's line.
 
     Raises
     ------
     ConfigError
-        For an unknown integrator, or a timestep that does not divide the problem's sample.
+        For an unknown integrator, or a timestep that is not above 0 or does not divide the
+        problem's sample.
 
     """
     if timesteps:
+        for timestep in timesteps:
+            if not 0 < timestep < math.inf:
+                raise ConfigError(f'timestep {timestep:g} s: must be finite and above 0')
         problem = replace(problem, timesteps=tuple(sorted(timesteps, reverse=True)))
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
         whole_steps(problem.sample, timestep, f'{problem.name}: sample')
-    converged = {
-        name: _converged(problem, rung)
-        for name, rung in _counted(problem.rungs.items(), f'{problem.name}: converged', report)
-    }
+    flown = Flown(problem)
+    runs = side_by_side(
+        lambda rung: converged_run(flown, rung),
+        problem.rungs,
+        f'{problem.name}: converged',
+        report,
+    )  # fmt: skip
+    converged = dict(zip(problem.rungs, runs, strict=True))
     richest = converged[problem.richest]
     reference = problem.reference(problem.times) if problem.reference else richest.states
     if reference is None:
         raise ConfigError(f'{problem.name}: no run of the richest model lasts; nothing to compare')
-    finest = fly(problem, problem.rungs[problem.richest], 'RK4', problem.timesteps[-1])
-    chaos = sensitivity(problem, 'RK4', problem.timesteps[-1], finest)
+    finest = Setting(problem.richest, 'RK4', problem.timesteps[-1])
+    # the longest runs first, so that no core is left with one at the end
+    longest_first = sorted(settings, key=lambda setting: -setting.evaluations)
+    what = f'{problem.name}: errors'
+    with ThreadPoolExecutor(1) as beside:
+        nudged = beside.submit(sensitivity, problem, 'RK4', finest.timestep, flown(finest))
+        side_by_side(flown, longest_first, what, report)
+        chaos = nudged.result()
     points = []
-    for setting in _counted(settings, f'{problem.name}: errors', report):
-        flight = fly(problem, problem.rungs[setting.rung], setting.integrator, setting.timestep)
+    for setting in settings:
         own = converged[setting.rung].states
-        points.append(
-            _point(setting, flight)
-            | _errors(problem, flight, reference, own, chaotic=chaos.chaotic)
-        )
-    for point, cost in zip(points, _costs(problem, settings, repeats, report), strict=True):
-        point |= cost
+        flight = flown(setting)
+        alone = _errors(problem, flight, reference, own, chaotic=chaos.chaotic)
+        points.append(_point(setting, flight) | alone)
     judged = 'regime' if chaos.chaotic else problem.judged_by
-    mark_front(points, judged)
+    result = _described(problem, converged, reference, chaos, judged)
+    result |= {
+        'orders': orders(points, {name: run.within for name, run in converged.items()}),
+        'points': points,
+    }
+    return _timed(result, problem, rounds, report)
+
+
+def time_again(
+    result: dict[str, Any], problem: Problem, *, rounds: int = ROUNDS, report: Report = _SILENT
+) -> dict[str, Any]:
+    """
+    Return a chart with its times measured anew, on this machine; its errors stay.
+
+    So does the factor within which costs are equal, unless a ratio has come near it.
+    """
+    steps = sorted({point['timestep_s'] for point in result['points']}, reverse=True)
+    problem = replace(problem, timesteps=tuple(steps))
+    for point in result['points']:
+        problem.rung(point['rung'])
+    return _timed(copy.deepcopy(result), problem, rounds, report)
+
+
+def _timed(
+    result: dict[str, Any], problem: Problem, rounds: int, report: Report
+) -> dict[str, Any]:
+    """Give every point its cost, and mark the front."""
+    points = result.pop('points')
+    costs = _costs(problem, points, rounds, report)
+    for point in points:
+        cost = costs[Curve(point['rung'], point['integrator'])]
+        point |= cost.per_second(point['timestep_s'])
+    before = result.get('same_cost', {}).get('factor')
+    same_cost = mark_front(points, result['judged_by'], before)
+    return result | {
+        'rounds': rounds,
+        'step_us': [{**curve._asdict(), **cost._asdict()} for curve, cost in costs.items()],
+        'same_cost': same_cost._asdict(),
+        'conditions': conditions(),
+        'points': points,
+    }
+
+
+def _described(
+    problem: Problem, converged: dict[str, Converged], reference: Array, chaos: Sensitivity,
+    judged: str,
+) -> dict[str, Any]:  # fmt: skip
+    """Return what a chart says of its problem."""
     return {
         'problem': problem.name,
         'title': problem.title,
@@ -122,15 +158,11 @@ def measure(
             name: _rung(problem, run, reference, chaotic=chaos.chaotic)
             for name, run in converged.items()
         },
-        'orders': orders(points, {name: run.within for name, run in converged.items()}),
-        'repeats': repeats,
-        'conditions': conditions(),
-        'points': points,
     }
 
 
 def conditions() -> dict[str, Any]:
-    """Return what processor times depend on."""
+    """Return what times depend on."""
     return {
         'fluid_sim_ros': __version__,
         'mujoco': mujoco.__version__,
@@ -149,50 +181,11 @@ def _settings(problem: Problem, integrators: Sequence[str]) -> list[Setting]:
     return [Setting(*row) for row in itertools.product(problem.rungs, names, problem.timesteps)]
 
 
-def _counted(items: Iterable[Any], what: str, report: Report) -> Iterable[Any]:
-    rows = list(items)
-    for done, row in enumerate(rows):
-        report(what, done, len(rows))
-        yield row
-    report(what, len(rows), len(rows))
-
-
-def _converged(problem: Problem, rung: Rung) -> Converged:
-    """Run a rung by RK4 with smaller and smaller timesteps, to half the finest at most."""
-    finest = problem.timesteps[-1]
-    first, *finer = [
-        h for h in (4 * finest, 2 * finest, finest, finest / 2)
-        if fits(rung, h, problem.sample)
-    ]  # fmt: skip
-    coarse = fly(problem, rung, 'RK4', first)
-    found = Converged(None, math.inf)
-    for timestep in finer:
-        fine = fly(problem, rung, 'RK4', timestep)
-        if not (fine.fault or coarse.fault):
-            apart = _judged(problem, coarse.states, fine.states, early(problem))
-            found = Converged(fine.states, apart)
-            if apart < _CONVERGED:
-                break
-        coarse = fine
-    return found
-
-
-def early(problem: Problem) -> int:
-    """Return the index of the time at which errors of the timestep are taken."""
-    return max(1, round(EARLY * (len(problem.times) - 1)))
-
-
-def _judged(problem: Problem, states: Array, reference: Array, index: int = -1) -> float:
-    """Return the error that the problem is judged by, by default at the end."""
-    norm = attitude_error if problem.judged_by == 'attitude_rad' else position_error
-    return float(norm(states, reference)[index])
-
-
 def _rung(problem: Problem, run: Converged, reference: Array, chaotic: bool) -> dict[str, Any]:
     """Return a rung's model error: what remains when the timestep is no matter."""
     if run.states is None:
         return {'model_error': None, 'converged_within': None}
-    model = _judged(problem, run.states, reference)
+    model = judged_error(problem, run.states, reference)
     if chaotic:
         model = _regime_apart(problem, run.states, reference)
     return {'model_error': model, 'converged_within': run.within}
@@ -224,69 +217,29 @@ def _errors(
     if chaotic:
         found['regime'] = _regime_apart(problem, flight.states, reference)
         return {'error': found, 'discretisation': None}
-    alone = None if own is None else _judged(problem, flight.states, own, early(problem))
+    alone = None if own is None else judged_error(problem, flight.states, own, early(problem))
     return {'error': found, 'discretisation': alone}
 
 
 def _costs(
-    problem: Problem, settings: Sequence[Setting], repeats: int, report: Report
-) -> list[dict[str, float]]:
-    """Return processor times of every setting, each repeat in another order (fixed seed)."""
-    shuffled = random.Random(_ORDER_SEED)
-    measured: list[list[float]] = [[] for _ in settings]
-    order = [
-        index
-        for _ in range(repeats)
-        for index in shuffled.sample(range(len(settings)), len(settings))
-    ]
-    for index in _counted(order, f'{problem.name}: processor time', report):
-        measured[index].append(cpu_per_second(problem, settings[index]))
-    return [
-        {
-            'cpu_us_per_s': statistics.median(row),
-            'cpu_lowest_us_per_s': min(row),
-            'cpu_highest_us_per_s': max(row),
-        }
-        for row in measured
-    ]
-
-
-def cpu_per_second(problem: Problem, setting: Setting) -> float:
-    """Return processor time per simulated second [us/s] of stepping alone, up to a failure."""
-    rung, integrator, timestep = setting
-    simulation = problem.rungs[rung].simulation(integrator, timestep)
-    steps = min(duration_steps(problem.duration, timestep), _MOST)
-    spent = simulated = 0.0
-    for _ in range(max(1, _FEWEST // steps)):
-        simulation.reset()
-        begin = time.thread_time()
-        with suppress(DivergedError):
-            simulation.step(steps)
-        spent += time.thread_time() - begin
-        simulated += max(simulation.step_count, 1) * timestep
-    return spent / simulated * 1e6
-
-
-def orders(points: Sequence[dict[str, Any]], floors: dict[str, float]) -> dict[str, Any]:
-    """
-    Return the order of convergence per rung and integrator, None where too few points show it.
-
-    Slope of log error over log timestep through the finest points that are clear of the converged
-    run's own uncertainty.
-    """
-    out: dict[str, dict[str, float | None]] = {}
+    problem: Problem, points: Sequence[dict[str, Any]], rounds: int, report: Report
+) -> dict[Curve, StepCost]:
+    """Return what a step costs on every curve, measured at a timestep at which it lasts."""
+    settings: dict[Curve, list[float]] = {}
+    lasting: dict[Curve, list[float]] = {}
     for point in points:
-        out.setdefault(point['rung'], {}).setdefault(point['integrator'], None)
-    for rung, integrators in out.items():
-        for integrator in integrators:
-            rows = sorted(
-                (math.log(p['timestep_s']), math.log(p['discretisation']))
-                for p in points
-                if (p['rung'], p['integrator']) == (rung, integrator)
-                and p['discretisation'] is not None
-                and _CLEAR * max(floors[rung], 1e-14) < p['discretisation'] < _ASYMPTOTIC
-            )
-            if len(rows) >= _ORDER_POINTS:
-                steps, sizes = zip(*rows[:_ORDER_POINTS], strict=True)
-                integrators[integrator] = statistics.linear_regression(steps, sizes).slope
-    return out
+        curve = Curve(point['rung'], point['integrator'])
+        settings.setdefault(curve, []).append(point['timestep_s'])
+        if point['status'] == 'ok':
+            lasting.setdefault(curve, []).append(point['timestep_s'])
+    at = {curve: _timed_at(problem, lasting.get(curve) or steps[-1:])
+          for curve, steps in settings.items()}  # fmt: skip
+    return step_costs(problem, at, rounds, report)
+
+
+def _timed_at(problem: Problem, lasting: Sequence[float]) -> float:
+    """Return the timestep at which a curve is timed [s]."""
+    if problem.rungs[problem.richest].scene.gait:
+        return min(lasting)  # the wave of the joints is part of a second, not of a step
+    middle = problem.timesteps[len(problem.timesteps) // 2]
+    return min(lasting, key=lambda step: abs(math.log(step / middle)))

@@ -161,6 +161,10 @@ def of_scene(scene: str | Scene, duration: float | None = None) -> Problem:
     own = float(loaded.compile().model.opt.timestep)
     seconds = loaded.duration if duration is None else duration
     sample = 0.1 if seconds >= 1 else 0.01
+    if seconds < sample:
+        raise ConfigError(
+            f'{loaded.name}: duration {seconds:g} s: at least {sample:g} s are needed to compare'
+        )
     seconds = round(seconds / sample) * sample
     steps = tuple(
         h for h in (*TIMESTEPS, 2e-5, 1e-5, 5e-6, 2e-6)

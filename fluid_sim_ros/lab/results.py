@@ -38,8 +38,9 @@ def load(path: Path, key: str) -> dict[str, Any]:
 def write_csv(result: dict[str, Any], path: Path) -> Path:
     """Write the points of a chart, one row each; return the file."""
     fields = (
-        'rung', 'integrator', 'timestep_s', 'status', 'cpu_us_per_s', 'cpu_lowest_us_per_s',
-        'cpu_highest_us_per_s', 'error', 'discretisation', 'pareto', 'failed_at_s', 'fault',
+        'rung', 'integrator', 'timestep_s', 'status', 'cpu_us_per_s', 'cpu_quartile_low_us_per_s',
+        'cpu_quartile_high_us_per_s', 'wall_us_per_s', 'wall_quartile_low_us_per_s',
+        'wall_quartile_high_us_per_s', 'error', 'discretisation', 'pareto', 'failed_at_s', 'fault',
     )  # fmt: skip
     names = sorted({name for point in result['points'] for name in point['error'] or ()})
     with path.open('w', newline='', encoding='utf-8') as file:

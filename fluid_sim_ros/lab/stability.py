@@ -11,8 +11,9 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.bodies import AXES, Body, Family, family
 from fluid_sim_ros.lab.boundaries import critical
+from fluid_sim_ros.lab.cost import Report
 from fluid_sim_ros.lab.fates import fate, one_step
-from fluid_sim_ros.lab.measure import Report, conditions
+from fluid_sim_ros.lab.measure import conditions
 from fluid_sim_ros.lab.problem import INTEGRATORS
 
 #: Bisection ends when the timestep is known to this factor.
@@ -48,11 +49,13 @@ def plan(
         if axis not in AXES:
             raise ConfigError(f"axis '{axis}' is not known; allowed: {listed(AXES)}")
         low, high = given or (AXES[axis].low, AXES[axis].high)
-        if not 0 < low < high:
+        if not 0 < low < high < np.inf:
             raise ConfigError(f'range of {axis}: {low:g} {high:g}; allowed: 0 < low < high')
         ranges[key] = [float(low), float(high)]
     if axes['x'] == axes['y']:
         raise ConfigError(f"both axes are '{axes['x']}'; give two different ones")
+    if cells < 1:
+        raise ConfigError(f'{cells} cells per axis: must be at least 1')
     unknown = [each for each in integrators if each not in INTEGRATORS]
     if unknown:
         raise ConfigError(

@@ -11,9 +11,14 @@ from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advise import advise, settings, snippet, verify
+from fluid_sim_ros.lab.catalogue import problem
+from fluid_sim_ros.lab.manoeuvre import judged_part
 from fluid_sim_ros.lab.metrics import METRICS, metric
-from fluid_sim_ros.lab.pareto import SAME_TIME
 from fluid_sim_ros.lab.problem import of_scene
+from fluid_sim_ros.lab.reference import find_reference
+from fluid_sim_ros.lab.trials import Trials
+from fluid_sim_ros.scene import scene_names
+from fluid_sim_ros.scene_schema import ScheduledEvent
 
 STATED = """# a scene of mine
 model: sphere
@@ -32,7 +37,7 @@ def sphere():
 
 def test_the_choice_keeps_the_tolerance_and_is_the_cheapest(sphere):
     costs = [row['cpu_us_per_s'] for row in sphere['candidates']]
-    assert all(a <= SAME_TIME * b for a, b in pairwise(costs))
+    assert all(a <= 1.35 * b for a, b in pairwise(costs))
     assert all(row['error'] <= 0.01 for row in sphere['candidates'])
     assert sphere['choice'] == sphere['candidates'][0]
     assert sphere['runner_up'] == sphere['candidates'][1]
@@ -74,11 +79,20 @@ def test_what_is_missing_is_said():
             "metric 'beauty' is not known; allowed: pose",
         ),
         ({'tolerance': 0.1, 'rate': 1e7}, 'no timestep of 1, 2, 5 times a power of ten fits it'),
+        ({'tolerance': float('nan')}, 'tolerance nan: must be above 0 and below 1'),
+        ({'tolerance': 0.1, 'rate': 0.0}, 'rate 0 Hz: must be finite and above 0'),
+        ({'tolerance': 0.1, 'budget': -1.0}, 'budget -1 s: must be finite and above 0'),
     ],
 )
 def test_wrong_input_is_refused(arguments, message):
     with pytest.raises(ConfigError, match=message):
         advise('sphere', duration=1.0, **arguments)
+
+
+@pytest.mark.parametrize(('duration', 'words'), [(0.0, 'finite and above 0'), (1e-9, '0.01 s')])
+def test_a_duration_that_leaves_nothing_is_refused(duration, words):
+    with pytest.raises(ConfigError, match=words):
+        advise('sphere', 0.1, duration=duration)
 
 
 def test_metrics_are_relative_and_zero_for_the_same_motion():
@@ -135,3 +149,124 @@ def test_a_wrong_setting_in_a_scene_file_is_refused(tmp_path, key, value):
     path.write_text(f'{STATED}{key}: {value}\n')
     with pytest.raises(ConfigError, match=f"{key} '{value}' is not known"):
         Simulation(path)
+
+
+def test_what_was_tried_is_said(sphere):
+    tried = {(row['rung'], row['integrator'], row['timestep']) for row in sphere['tried']}
+    chosen = sphere['choice']
+    assert (chosen['rung'], chosen['integrator'], chosen['timestep']) in tried
+    assert {row['rung'] for row in sphere['not_tried']} >= {'none', 'inertia'}
+    assert "the model's own error is" in sphere['not_tried'][0]['why']
+    json.dumps(sphere, allow_nan=False)
+
+
+def test_a_budget_that_is_too_small_is_said():
+    found = advise('sphere', 0.01, budget=1e-9)
+    assert any('time budget' in row['why'] for row in found['not_tried'])
+    assert found['choice'] is None
+    assert '--budget' in found['missing']
+
+
+def test_a_manoeuvre_is_judged_until_it_touches_the_ground():
+    case = of_scene('x500', 12.0)
+    found = judged_part(case, 0.002)
+    assert found.duration == pytest.approx(11.2)
+    assert 'touches the ground at 11.2' in found.note
+    assert judged_part(of_scene('sphere', 1.0), 0.002) == (1.0, '')
+
+
+def test_what_the_schedule_does_later_is_named():
+    event = ScheduledEvent(at=11.5, wind=[0, 0, 0])
+    scene = Scene.load('x500')
+    scene = replace(scene, schedule=(*scene.schedule, event))
+    assert judged_part(of_scene(scene, 12.0), 0.002).note.endswith(
+        'without what the schedule changes at 11.5 s'
+    )
+
+
+def test_a_vehicle_that_rests_on_the_ground_is_refused():
+    with pytest.raises(ConfigError, match=r'rests on the ground throughout.*: x500, x500_turb'):
+        advise('x500_ground', 0.01, duration=1.0)
+
+
+def test_a_vehicle_that_leaves_the_ground_is_judged():
+    event = ScheduledEvent(at=0.5, thrust={'x500': [6.5] * 4})
+    scene = replace(Scene.load('x500_ground'), schedule=(event,))
+    assert judged_part(of_scene(scene, 1.5), 0.002) == (1.5, '')
+
+
+def test_a_sensitive_motion_is_compared_point_by_point_as_long_as_that_works():
+    found = advise('kirchhoff', 0.01)
+    assert found['reference']['chaotic']
+    assert found['metric'] == 'pose'
+    assert found['choice']['integrator'] == 'RK4'
+
+
+def test_a_motion_that_forgets_its_start_is_judged_by_its_regime():
+    """Sheets that flutter chaotically: no refinement agrees with the last one after a while."""
+    trials = Trials(problem('plate_chaos'), 60.0)
+    found = find_reference(trials, 0.02, 0.01, 'pose', lambda *_: None)
+    assert found.sensitivity.chaotic
+    assert found.metric_name == 'regime'
+
+
+KEPT = ['advise', '--tolerance', '0.05', '--duration', '1', '--keep']
+
+
+def test_advice_that_is_kept_changes_nothing_until_it_is_asked_for(tmp_path, capsys):
+    path = tmp_path / 'mine.yaml'
+    path.write_text(STATED)
+    for _ in range(2):
+        assert main([*KEPT, str(path), '--json', '-']) == 0
+        result = json.loads(capsys.readouterr().out)
+    text = path.read_text()
+    assert text.startswith(STATED)
+    assert text.count('advised:') == 1
+    loaded = Scene.load(path)
+    assert loaded.timestep == 0.002
+    assert loaded.advised.timestep == result['choice']['timestep']
+    assert loaded.advised.command == result['command']
+    runs = {}
+    for options in ((), ('--advised',), ('--advised', '--timestep', '.001')):
+        assert main(['run', str(path), '--duration', '1', '--json', '-', *options]) == 0
+        runs[options] = json.loads(capsys.readouterr().out)
+    assert [run['timestep_s'] for run in runs.values()] == [0.002, loaded.advised.timestep, 0.001]
+    integrators = [run['integrator'] for run in runs.values()]
+    assert integrators[1:] == [loaded.advised.integrator.lower()] * 2
+
+
+def test_advice_that_is_not_there_is_missed(tmp_path, capsys):
+    path = tmp_path / 'mine.yaml'
+    path.write_text(STATED)
+    assert main(['run', str(path), '--advised']) == 2
+    assert 'has no advised settings; fluid_sim advise' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('line', 'message'),
+    [
+        ('integrator: RK5', r"'advised.integrator'.*is not known; allowed: euler"),
+        ('integrator: RK4, fluid: honey', r"'advised.fluid'.*is not known; allowed: none"),
+        ('integrator: RK4, colour: red', r"'advised.colour'"),
+    ],
+)
+def test_wrong_advice_in_a_scene_file_is_refused(tmp_path, line, message):
+    path = tmp_path / 'mine.yaml'
+    head = 'command: c, tolerance: 0.01, metric: pose, error: 0.001, timestep: 0.01'
+    path.write_text(f'{STATED}advised: {{{head}, {line}}}\n')
+    with pytest.raises(ConfigError, match=message):
+        Scene.load(path)
+
+
+@pytest.mark.parametrize('name', scene_names())
+def test_every_scene_ships_its_advice_or_has_none_to_give(name):
+    scene = Scene.load(name)
+    if name == 'x500_ground':  # rests on the ground: refused
+        assert scene.advised is None
+        return
+    advised = scene.advised
+    assert advised.command == f'fluid_sim advise {name} --tolerance 0.01'
+    assert advised.error <= advised.tolerance == 0.01
+    settings = {key: getattr(advised, key) for key in ('timestep', 'integrator', 'fluid')}
+    simulation = Simulation(name, **settings)
+    simulation.step(10)

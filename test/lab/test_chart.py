@@ -7,12 +7,15 @@ import subprocess
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.catalogue import problem
+from fluid_sim_ros.lab.cost import Curve, step_costs
 from fluid_sim_ros.lab.measure import measure
-from fluid_sim_ros.lab.pareto import mark_front
+from fluid_sim_ros.lab.pareto import FRONT_RANGE, _price_of_more, mark_front, tie
 
 STEPS = (0.05, 0.01, 0.005, 0.0025, 0.00125)
 SETTING = ('rung', 'integrator', 'timestep_s')
@@ -20,7 +23,7 @@ SETTING = ('rung', 'integrator', 'timestep_s')
 
 @pytest.fixture(scope='module')
 def kirchhoff():
-    return measure(problem('kirchhoff'), integrators=('Euler', 'RK4'), timesteps=STEPS, repeats=1)
+    return measure(problem('kirchhoff'), integrators=('Euler', 'RK4'), timesteps=STEPS, rounds=2)
 
 
 def test_orders_of_convergence(kirchhoff):
@@ -39,7 +42,7 @@ def test_the_plugin_reaches_what_no_stock_setting_does(kirchhoff):
 
 def test_two_runs_give_the_same_errors_to_the_bit():
     first, again = (
-        measure(problem('kirchhoff'), integrators=('RK4',), timesteps=STEPS[:2], repeats=1)
+        measure(problem('kirchhoff'), integrators=('RK4',), timesteps=STEPS[:2], rounds=2)
         for _ in range(2)
     )
     for key in (*SETTING, 'error', 'discretisation', 'status', 'fault'):
@@ -65,16 +68,81 @@ def test_model_error_is_told_from_the_timestep(kirchhoff):
     assert stock[-1]['discretisation'] < 1e-9
 
 
-def test_the_front_holds_no_point_that_another_one_beats():
-    def point(cost, error):
-        return {'cpu_us_per_s': cost, 'error': None if error is None else {'e': error}}
+def point(cost, error):
+    return {'cpu_us_per_s': cost, 'error': None if error is None else {'e': error}}
 
+
+def test_the_front_holds_what_only_a_dearer_point_betters():
     points = [
         point(1, 1), point(10, 0.1), point(10, 0.2), point(100, 0.1), point(11, 0.1),
         point(5, None), point(20, 0.01),
     ]  # fmt: skip
-    mark_front(points, 'e')
+    found = mark_front(points, 'e')
     assert [p['pareto'] for p in points] == [True, True, False, False, False, False, True]
+    assert FRONT_RANGE[0] < found.factor < FRONT_RANGE[1]
+
+
+def test_of_equal_errors_the_first_stays_unless_it_is_clearly_dearer():
+    points = [point(10, 0.1), point(8, 0.1), point(2, 0.1)]
+    mark_front(points, 'e')
+    assert [p['pareto'] for p in points] == [False, False, True]
+    points = [point(10, 0.1), point(9, 0.1)]
+    mark_front(points, 'e')
+    assert [p['pareto'] for p in points] == [True, False]
+
+
+@given(st.lists(st.tuples(st.floats(1, 1e4), st.floats(1e-6, 1)), min_size=2, max_size=40),
+       st.integers(0, 2**32 - 1))  # fmt: skip
+def test_a_clock_that_is_off_by_less_than_the_gap_marks_the_same_front(rows, seed):
+    points = [point(*row) for row in rows]
+    found = mark_front(points, 'e')
+    front = [p['pareto'] for p in points]
+    assert any(front)
+    # each cost by less than a quarter of the gap, so that no ratio crosses the factor
+    noise = np.random.default_rng(seed).uniform(-1, 1, len(points)) * np.log(found.clear) / 4
+    again = [point(cost * np.exp(d), error) for (cost, error), d in zip(rows, noise, strict=True)]
+    prices = [_price_of_more([(p['error']['e'], p['cpu_us_per_s']) for p in again], place)
+              for place in range(len(again))]  # fmt: skip
+    assert all(price > found.factor for price, on in zip(prices, front, strict=True) if on)
+
+
+def test_the_tie_factor_is_the_middle_of_the_widest_gap():
+    assert tie([1.0, 1.2, 1.25, 3.0], (1.1, 2.0)) == pytest.approx(
+        (np.sqrt(1.25 * 2.0), np.sqrt(2.0 / 1.25))
+    )
+    assert tie([], (1.1, 2.0)).factor == pytest.approx(np.sqrt(2.2))
+
+
+def test_a_factor_is_kept_while_no_ratio_comes_near_it():
+    """Of two gaps that are about equally wide, the one of the last time stays."""
+    points = [point(10.0, 1), point(16.2, 0.9), point(32.0, 0.1)]  # gaps 1.1-1.62-1.975-2
+    assert mark_front(points, 'e').factor == pytest.approx(np.sqrt(1.1 * 1.62))
+    assert mark_front(points, 'e', before=1.8).factor == 1.8
+    assert mark_front(points, 'e', before=1.64).factor == pytest.approx(np.sqrt(1.1 * 1.62))
+
+
+def test_within_a_curve_cost_goes_exactly_with_the_number_of_steps(kirchhoff):
+    for one in kirchhoff['step_us']:
+        rows = [p for p in kirchhoff['points'] if (p['rung'], p['integrator']) == (
+            one['rung'], one['integrator']
+        )]  # fmt: skip
+        assert len(rows) == len(STEPS)
+        for row in rows:
+            assert row['cpu_us_per_s'] == pytest.approx(one['cpu'] / row['timestep_s'], rel=1e-12)
+            assert row['wall_us_per_s'] == pytest.approx(
+                one['wall'] / row['timestep_s'], rel=1e-12
+            )
+            assert row['cpu_quartile_low_us_per_s'] <= row['cpu_us_per_s']
+            assert row['cpu_us_per_s'] <= row['cpu_quartile_high_us_per_s']
+
+
+def test_a_step_of_a_dearer_integrator_costs_more():
+    curves = {Curve('+ added inertia', name): 0.01 for name in ('Euler', 'RK4')}
+    costs = step_costs(problem('kirchhoff'), curves, rounds=9)
+    euler, rk4 = costs.values()
+    assert 2 < rk4.cpu / euler.cpu < 6
+    with pytest.raises(ConfigError, match='0 timed bursts per curve: must be at least 1'):
+        step_costs(problem('kirchhoff'), curves, rounds=0)
 
 
 def test_a_wrong_setting_is_refused():
@@ -83,11 +151,14 @@ def test_a_wrong_setting_is_refused():
         measure(case, integrators=('RK5',))
     with pytest.raises(ConfigError, match=r'stokes: sample: 0.01 s is not a whole number'):
         measure(case, timesteps=(0.003,))
+    for timestep in (0.0, -0.1, float('nan')):
+        with pytest.raises(ConfigError, match=r'timestep .* s: must be finite and above 0'):
+            measure(case, timesteps=(timestep,))
 
 
 def test_the_command_writes_files_that_can_be_drawn_again(tmp_path, capsys):
     out = tmp_path / 'first'
-    arguments = ['chart', 'spin_down', '--timesteps', '.02', '.01', '--repeats', '1']
+    arguments = ['chart', 'spin_down', '--timesteps', '.02', '.01', '--rounds', '2']
     assert main([*arguments, '--out', str(out), '--json', '-']) == 0
     files = json.loads(capsys.readouterr().out)['files']
     assert [f.rsplit('/', 1)[1] for f in files] == [
@@ -104,6 +175,23 @@ def test_the_command_writes_files_that_can_be_drawn_again(tmp_path, capsys):
     judged = [p['error']['attitude_rad'] for p in result['points']]
     np.testing.assert_array_equal([float(row['error']) for row in rows], judged)
     assert 'DATA' not in (out / 'chart.html').read_text()
+
+
+def test_times_can_be_measured_again_for_errors_that_are_there(tmp_path, capsys):
+    first, again = tmp_path / 'first', tmp_path / 'again'
+    arguments = ['chart', 'spin_down', '--timesteps', '.02', '.01', '--rounds', '2', '--out']
+    assert main([*arguments, str(first)]) == 0
+    file = str(first / 'spin_down.json')
+    arguments = ['chart', '--from', file, '--time-again', '--rounds', '3', '--out', str(again)]
+    assert main(arguments) == 0
+    capsys.readouterr()
+    old, new = (json.loads((f / 'spin_down.json').read_text()) for f in (first, again))
+    assert (old['rounds'], new['rounds']) == (2, 3)
+    for key in (*SETTING, 'error', 'discretisation', 'status'):
+        assert [p[key] for p in new['points']] == [p[key] for p in old['points']]
+    assert new['step_us'] != old['step_us']
+    assert main(['chart', '--time-again']) == 2
+    assert 'needs --from JSON' in capsys.readouterr().err
 
 
 def test_the_command_lists_the_problems(capsys):

@@ -127,6 +127,9 @@ def test_a_map_that_makes_no_sense_is_refused():
         ({'name': 'drag', 'x': 'speed', 'y': 'speed'}, "both axes are 'speed'"),
         ({'name': 'drag', 'x_range': (1, 0.1)}, 'allowed: 0 < low < high'),
         ({'name': 'drag', 'integrators': ('RK5',)}, "'RK5' is not known"),
+        ({'name': 'drag', 'cells': 0}, '0 cells per axis: must be at least 1'),
+        ({'name': 'drag', 'x_range': (1, float('inf'))}, 'allowed: 0 < low < high'),
+        ({'name': 'drag', 'fixed': {'speed': -1.0}}, 'speed -1: must be above 0'),
         ({'name': 'drag', 'fixed': {'mass': 1}}, "axis 'mass' is not known"),
         (
             {'name': 'drag', 'fixed': {'density_ratio': 1, 'added_mass_ratio': 1}},
@@ -151,5 +154,7 @@ def test_the_command(tmp_path, capsys):
     assert (tmp_path / 'plate_timestep_speed.png').stat().st_size > 10_000
     assert main(['stability', 'plate', '--set', 'aspect=wide']) == 2
     assert "--set 'aspect=wide': must be AXIS=NUMBER" in capsys.readouterr().err
+    assert main(['stability', 'plate', '--set', 'aspect=nan']) == 2
+    assert "--set 'aspect=nan': must be finite" in capsys.readouterr().err
     assert main(['stability', '--json', '-']) == 0
     assert set(json.loads(capsys.readouterr().out)['problems']) == set(FAMILIES)

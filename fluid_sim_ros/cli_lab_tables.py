@@ -1,0 +1,87 @@
+"""How ``fluid_sim chart`` and ``fluid_sim advise`` show what they found."""
+
+from pathlib import Path
+from typing import Any
+
+#: So many lines on what was not tried; all of them are in the JSON.
+_MOST = 6
+
+
+def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
+    """Return the Pareto fronts as a table."""
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.lab.pareto import judged
+
+    table = Table(
+        'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
+        title='Pareto fronts',
+    )  # fmt: skip
+    for result in found:
+        front = [point for point in result['points'] if point['pareto']]
+        for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
+            table.add_row(
+                result['problem'], escape(point['rung']), point['integrator'],
+                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
+                f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
+            )  # fmt: skip
+    return Group(table, escape('\n'.join(map(str, files))))
+
+
+def advice_table(advice: dict[str, Any], asked: str) -> Any:
+    """Return the candidates as a table and the choice in words; ``asked`` is the metric's name."""
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(
+        'fluid', 'integrator', 'timestep', 'error', 'µs per simulated s', 'fails at',
+        title=f'{advice["scene"]}: within {advice["tolerance"]:g} ({advice["metric"]}), '
+        'cheapest first',
+    )  # fmt: skip
+    for each in advice['candidates']:
+        fails = f'{each["fails_at_s"] * 1e3:g} ms' if each['fails_at_s'] else ''
+        table.add_row(
+            each['rung'], each['integrator'], f'{each["timestep"] * 1e3:g} ms',
+            f'{each["error"]:.2g}', f'{each["cpu_us_per_s"]:.4g}', fails,
+        )  # fmt: skip
+    return Group(table, escape('\n'.join(_lines(advice, asked))))
+
+
+def _lines(advice: dict[str, Any], asked: str) -> list[str]:
+    from fluid_sim_ros.lab.advise import snippet
+
+    lines = []
+    if advice['note']:
+        lines.append(f'Note: {advice["note"]}.')
+    if advice['metric'] != asked:
+        lines.append('The motion forgets its start: judged by its regime, not point by point.')
+    lines += _left_out(advice['not_tried'])
+    choice, baseline = advice['choice'], advice['baseline']
+    if choice is None:
+        return [*lines, f'Nothing meets {advice["tolerance"]:g}: {advice["missing"]}']
+    bound = 'at least ' if choice['margin_is_a_bound'] else ''
+    return [
+        *lines,
+        f'{advice["cheaper_than_baseline"]:.3g} times cheaper than RK4 at '
+        f'{baseline["timestep"] * 1e3:g} ms with everything on; '
+        f'{bound}{choice["margin"]:.3g} times below the step at which it fails.',
+        snippet(advice),
+        *(f'written: {path}' for path in advice['written']),
+    ]
+
+
+def _left_out(rows: list[dict[str, Any]]) -> list[str]:
+    """Return what a budget or a model's own error left out; dearer settings go without saying."""
+    lines = []
+    for row in rows:
+        if 'evaluations' in row['why']:
+            continue
+        named = ', '.join(filter(None, (row['rung'], row['integrator'])))
+        if row['from_timestep']:
+            named += f', {row["from_timestep"] * 1e3:g} ms and less'
+        lines.append(f'Not tried: {named} ({row["why"]}).')
+    more = len(lines) - _MOST
+    return lines if more <= 0 else [*lines[:_MOST], f'and {more} more (--json).']

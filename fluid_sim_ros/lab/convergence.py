@@ -1,0 +1,100 @@
+"""Converged runs of a problem's models, and the order at which integrators come near them."""
+
+import math
+import statistics
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from fluid_sim_ros.lab.norms import attitude_error, position_error
+from fluid_sim_ros.lab.problem import Array, Flight, Problem, fits, fly
+from fluid_sim_ros.lab.trials import Setting
+
+#: Errors of the timestep alone are taken at this share of the run: later they fold back into
+#: the size of the motion, and show no order.
+EARLY = 0.2
+#: A run is converged when half its step changes so little [m], [rad].
+_CONVERGED = 1e-12
+#: Errors within this factor of the converged run's own uncertainty say nothing about the order.
+_CLEAR = 30.0
+#: Larger discretisation errors are not yet asymptotic [m], [rad].
+_ASYMPTOTIC = 0.1
+_ORDER_POINTS = 3
+
+
+class Converged(NamedTuple):
+    """A run of a rung at a step so fine that only the model is left, and how sure that is."""
+
+    states: Array | None  # None: no run of this rung lasts
+    within: float  # early error against the run at twice the step [m] or [rad]
+
+
+class Flown:
+    """The runs of a problem, each made once (two threads may make the same one: no harm)."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self._flights: dict[Setting, Flight] = {}
+
+    def __call__(self, setting: Setting) -> Flight:
+        """Return the run of a setting."""
+        if setting not in self._flights:
+            rung = self.problem.rungs[setting.rung]
+            self._flights[setting] = fly(self.problem, rung, *setting[1:])
+        return self._flights[setting]
+
+
+def converged_run(flown: Flown, rung: str) -> Converged:
+    """Run a rung by RK4 with smaller and smaller timesteps, to half the finest at most."""
+    problem = flown.problem
+    finest = problem.timesteps[-1]
+    first, *finer = [
+        h for h in (4 * finest, 2 * finest, finest, finest / 2)
+        if fits(problem.rungs[rung], h, problem.sample)
+    ]  # fmt: skip
+    coarse = flown(Setting(rung, 'RK4', first))
+    found = Converged(None, math.inf)
+    for timestep in finer:
+        fine = flown(Setting(rung, 'RK4', timestep))
+        if not (fine.fault or coarse.fault):
+            apart = judged_error(problem, coarse.states, fine.states, early(problem))
+            found = Converged(fine.states, apart)
+            if apart < _CONVERGED:
+                break
+        coarse = fine
+    return found
+
+
+def early(problem: Problem) -> int:
+    """Return the index of the time at which errors of the timestep are taken."""
+    return max(1, round(EARLY * (len(problem.times) - 1)))
+
+
+def judged_error(problem: Problem, states: Array, reference: Array, index: int = -1) -> float:
+    """Return the error that the problem is judged by, by default at the end."""
+    norm = attitude_error if problem.judged_by == 'attitude_rad' else position_error
+    return float(norm(states, reference)[index])
+
+
+def orders(points: Sequence[dict[str, Any]], floors: dict[str, float]) -> dict[str, Any]:
+    """
+    Return the order of convergence per rung and integrator, None where too few points show it.
+
+    Slope of log error over log timestep through the finest points that are clear of the converged
+    run's own uncertainty.
+    """
+    out: dict[str, dict[str, float | None]] = {}
+    for point in points:
+        out.setdefault(point['rung'], {}).setdefault(point['integrator'], None)
+    for rung, integrators in out.items():
+        for integrator in integrators:
+            rows = sorted(
+                (math.log(p['timestep_s']), math.log(p['discretisation']))
+                for p in points
+                if (p['rung'], p['integrator']) == (rung, integrator)
+                and p['discretisation'] is not None
+                and _CLEAR * max(floors[rung], 1e-14) < p['discretisation'] < _ASYMPTOTIC
+            )
+            if len(rows) >= _ORDER_POINTS:
+                steps, sizes = zip(*rows[:_ORDER_POINTS], strict=True)
+                integrators[integrator] = statistics.linear_regression(steps, sizes).slope
+    return out
