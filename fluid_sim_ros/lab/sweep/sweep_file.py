@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.fluid_rungs import FLUID_RUNGS
-from fluid_sim_ros.scene import INTEGRATORS
+from fluid_sim_ros.integrators import INTEGRATORS
 from fluid_sim_ros.schema import (
     NotNegative,
     Number,
