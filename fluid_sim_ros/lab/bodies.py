@@ -6,7 +6,7 @@ integrator's doing. Semi-axes (aspect r, r, r), the first one along the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -177,8 +177,3 @@ def family(name: str) -> Family:
     if name not in FAMILIES:
         raise ConfigError(f"stability problem '{name}' is not known; allowed: {listed(FAMILIES)}")
     return FAMILIES[name]
-
-
-def body_fields() -> list[str]:
-    """Return the parameters of a body that a map may hold fixed."""
-    return [field.name for field in fields(Body) if field.name in AXES] + ['added_mass_ratio']
