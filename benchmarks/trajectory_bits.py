@@ -48,7 +48,7 @@ def fly(scene: str, **settings: Any) -> str:
                 low, high = np.clip(ranges, -1.0, 1.0).T
                 if len(low):
                     command(name, low + (high - low) * rng.uniform(size=len(low)))
-            if block % 4 == 0:
+            if block % 4 == 0 and vehicle.dof_address >= 0:
                 force, torque = 0.05 * rng.normal(size=(2, 3))
                 simulation.set_wrench(name, force, torque, 'base_link')
         simulation.step(BLOCK)
