@@ -154,7 +154,7 @@ setup(
     python_requires='>=3.11,<3.13',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     package_data={
-        PACKAGE: ['py.typed', '*.css', '*.js', '*/*.html', 'messages/*.json'],
+        PACKAGE: ['py.typed', '**/*.css', '**/*.js', '**/*.html', 'messages/*.json'],
     },
     ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
     cmdclass={'build_ext': BuildPluginLibrary},
@@ -190,10 +190,10 @@ setup(
         'console_scripts': [
             'fluid_sim = fluid_sim_ros.cli:main',
             'fluid_sim_node = fluid_sim_ros.ros.node:main',
-            'plane_controller = fluid_sim_ros.ros.plane_controller:main',
-            'quad_controller = fluid_sim_ros.ros.quad_controller:main',
-            'rov_controller = fluid_sim_ros.ros.rov_controller:main',
-            'auv_controller = fluid_sim_ros.ros.auv_controller:main',
+            'plane_controller = fluid_sim_ros.ros.controllers.plane:main',
+            'quad_controller = fluid_sim_ros.ros.controllers.quad:main',
+            'rov_controller = fluid_sim_ros.ros.controllers.rov:main',
+            'auv_controller = fluid_sim_ros.ros.controllers.auv:main',
         ],
     },
     zip_safe=False,

@@ -20,19 +20,19 @@ from typing import Any
 from common import arguments, wall_seconds, write
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.autopilot import (
+from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
     AutopilotPacing,
     Bridge,
     Surroundings,
     open_bridge,
 )
+from fluid_sim_ros.loop.pacing import Pacing
+from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.mavlink.hil_messages import dialect
 from fluid_sim_ros.mavlink.sockets import Watch
 from fluid_sim_ros.mavlink.wire import Frame
-from fluid_sim_ros.pacing import Pacing
-from fluid_sim_ros.runner import NoSource, Runner
-from fluid_sim_ros.schedule import NEVER
+from fluid_sim_ros.step_clock import NEVER
 
 SCENE = 'x500_ground'
 #: Share of full speed at which the x500 hovers: sqrt(2.06432 kg x 9.81 m/s^2 / 4 / 8.54858 N).

@@ -26,15 +26,15 @@ from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 RESULT = RESULTS / 'controller_latency.json'
 ROUNDS, QUICK_ROUNDS, WARM_UP = 5000, 1000, 200
 RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 CASES = {
     'echo': (Path(__file__).name, 'x500', 1.5),
-    'quad_controller': ('fluid_sim_ros.ros.quad_controller', 'x500', 1.5),
-    'rov_controller': ('fluid_sim_ros.ros.rov_controller', 'bluerov2_heavy', -5.0),
+    'quad_controller': ('fluid_sim_ros.ros.controllers.quad', 'x500', 1.5),
+    'rov_controller': ('fluid_sim_ros.ros.controllers.rov', 'bluerov2_heavy', -5.0),
 }
 
 

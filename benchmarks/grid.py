@@ -16,8 +16,8 @@ from common import RESULTS, ROOT, arguments, write
 from plugin_common import Array, body_plugin, ellipsoid, free_body, load, text, world
 from scipy.integrate import solve_ivp
 
-from fluid_sim_ros.grid_files import grid_numbers
-from fluid_sim_ros.physics.grid import Grid, checked_grid
+from fluid_sim_ros.physics.environment.grid import Grid, checked_grid
+from fluid_sim_ros.scene.grid_files import grid_numbers
 
 SPEED, SIZE = 0.8, 4.0  # U [m/s], L [m]
 START, SECONDS = np.array([3.0, 0.0]), 40.0

@@ -22,10 +22,10 @@ from typing import Any
 from common import RESULTS, ROOT, arguments, write
 
 from fluid_sim_ros.lab import results
-from fluid_sim_ros.lab.catalogue import PROBLEMS
-from fluid_sim_ros.lab.chart import draw
 from fluid_sim_ros.lab.cost import ROUNDS
+from fluid_sim_ros.lab.drawing.chart import draw
 from fluid_sim_ros.lab.pareto import judged
+from fluid_sim_ros.lab.problems.catalogue import PROBLEMS
 
 SETTING = ('rung', 'integrator', 'timestep_s')
 QUICK = ('kirchhoff', 'spin_down')

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from common import RESULTS, ROOT, arguments, write
 
-from fluid_sim_ros.lab.bodies import FAMILIES, Body, family
-from fluid_sim_ros.lab.boundaries import EXPLICIT
+from fluid_sim_ros.lab.drawing.stability_chart import draw_map
 from fluid_sim_ros.lab.false_alarms import random_run
-from fluid_sim_ros.lab.fates import fate
-from fluid_sim_ros.lab.problem import INTEGRATORS
+from fluid_sim_ros.lab.outcomes import fate
+from fluid_sim_ros.lab.problems.bodies import FAMILIES, Body, family
+from fluid_sim_ros.lab.problems.boundaries import EXPLICIT
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 from fluid_sim_ros.lab.stability import largest_steps, measured_numbers, plan, run_map
-from fluid_sim_ros.lab.stability_chart import draw_map
 
 #: A body, changes to it, and a timestep [s]: there one integrator fails, another does not.
 SCENES: dict[str, tuple[str, dict[str, float], float]] = {

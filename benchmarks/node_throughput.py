@@ -52,7 +52,7 @@ SUBSCRIBER = textwrap.dedent(f"""
 # The node with its loop timed: it waits for the subscriber, then runs the whole duration.
 NODE = textwrap.dedent("""
     import sys, time
-    from fluid_sim_ros import runner
+    from fluid_sim_ros.loop import runner
     from fluid_sim_ros.ros import node
     plain = runner.Runner.run
     def timed(self, until=runner.NEVER):

@@ -18,8 +18,8 @@ from peer_tasks import (
 )
 
 from fluid_sim_ros import Scene, Simulation
-from fluid_sim_ros.lab.closed_forms import keyframe, scene_of
-from fluid_sim_ros.lab.mjcf import body_plugin, config, free_body, text, world
+from fluid_sim_ros.lab.problems.closed_forms import keyframe, scene_of
+from fluid_sim_ros.lab.problems.mjcf import body_plugin, config, free_body, text, world
 
 INTEGRATORS = ('RK4', 'implicitfast')
 _ARM = 0.174  # of the x500 [m]

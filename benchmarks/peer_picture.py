@@ -7,8 +7,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
-from fluid_sim_ros.lab.colors import COLORS
-from fluid_sim_ros.lab.style import STYLE, save_figure
+from fluid_sim_ros.lab.drawing.colors import COLORS
+from fluid_sim_ros.lab.drawing.style import STYLE, save_figure
 
 _FAMILIES = dict(zip(('fluid_sim', 'MuJoCo', 'JSBSim', 'RotorPy', 'SciPy'), COLORS, strict=False))
 _MARKERS = dict(zip(_FAMILIES, 'osDv^', strict=True))

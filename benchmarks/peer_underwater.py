@@ -31,8 +31,8 @@ from scipy.integrate import odeint
 from vehicle_equations import HEAVY
 
 from fluid_sim_ros.errors import DivergedError
-from fluid_sim_ros.lab.closed_forms import keyframe, scene_of
-from fluid_sim_ros.lab.mjcf import body_plugin, free_body, text, world
+from fluid_sim_ros.lab.problems.closed_forms import keyframe, scene_of
+from fluid_sim_ros.lab.problems.mjcf import body_plugin, free_body, text, world
 from fluid_sim_ros.physics.fossen import damping_wrench
 from fluid_sim_ros.physics.kirchhoff import kirchhoff_motion, rigid_body_matrix, rotation_wb
 

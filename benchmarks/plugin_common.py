@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fluid_sim_ros.lab.mjcf import (
+from fluid_sim_ros.lab.problems.mjcf import (
     FIRST_ORDER,
     body_plugin,
     config,

@@ -23,7 +23,7 @@ from common import RESULTS, arguments, write
 from plugin_common import Array, load
 from scipy.integrate import solve_ivp
 
-from fluid_sim_ros.lab.plates import BETA, START, A, plate_mjcf, speed_scale, start_state
+from fluid_sim_ros.lab.problems.plates import BETA, START, A, plate_mjcf, speed_scale, start_state
 from fluid_sim_ros.physics.falling_plate import PlateParams, falling_plate_rhs
 
 DURATION, STEP, KEPT = 200.0, 0.01, 5  # in units of a/U twice; every fifth step is kept

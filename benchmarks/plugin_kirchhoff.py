@@ -17,7 +17,7 @@ import numpy as np
 from common import RESULTS, arguments, write
 from plugin_common import FIRST_ORDER, Array, body_plugin, ellipsoid, free_body, load, text, world
 
-from fluid_sim_ros.lab import norms
+from fluid_sim_ros.lab import motion_errors as norms
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
 from fluid_sim_ros.physics.kirchhoff import (
     impulses,

@@ -28,10 +28,10 @@ from common import arguments, write
 from mcap.writer import CompressionType, Writer
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.pacing import Pacing
+from fluid_sim_ros.loop.pacing import Pacing
+from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.sink import RecordingSink
-from fluid_sim_ros.runner import NoSource, Runner
 
 DOMAIN = '101'
 SCENE = 'rov'
@@ -52,7 +52,7 @@ NODE = textwrap.dedent("""
     from fnmatch import fnmatchcase
     from rclpy.serialization import serialize_message
     from std_msgs.msg import Float64MultiArray
-    from fluid_sim_ros import runner
+    from fluid_sim_ros.loop import runner
     from fluid_sim_ros.ros import inputs, node, outputs, session
     patterns, blocks = sys.argv.pop(1).split(), int(sys.argv.pop(1))
     seconds = float(sys.argv.pop(1))

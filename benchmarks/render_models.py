@@ -21,7 +21,7 @@ from PIL import Image
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control.gait import JointWave, travelling_wave, wing_beat
-from fluid_sim_ros.recording.water import add_waves
+from fluid_sim_ros.recording.pictures.water import add_waves
 
 OUT = Path(__file__).parents[1] / 'doc' / 'img'
 WIDTH, HEIGHT = 640, 480

@@ -15,7 +15,7 @@ from common import RESULTS, ROOT, arguments, wall_seconds, write
 from numpy.typing import NDArray
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.sensor_schema import Channel
+from fluid_sim_ros.schema.sensors import Channel
 from fluid_sim_ros.sensors import SensorSuite
 
 Array = NDArray[np.float64]

@@ -20,11 +20,11 @@ from typing import Any
 
 from common import arguments, write
 
-from fluid_sim_ros.lab.sweep.compare import against_cpu
-from fluid_sim_ros.lab.sweep.conduct import conduct
-from fluid_sim_ros.lab.sweep.device import PRECISION, Device
-from fluid_sim_ros.lab.sweep.flight import Flights
-from fluid_sim_ros.lab.sweep.sweep_file import SweepFile
+from fluid_sim_ros.sweep.compare import against_cpu
+from fluid_sim_ros.sweep.flight import Flights
+from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.sweep_file import SweepFile
+from fluid_sim_ros.sweep.warp_device import PRECISION, Device
 
 _SWEEPS: dict[str, dict[str, Any]] = {
     'sphere': {

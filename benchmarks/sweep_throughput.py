@@ -28,8 +28,8 @@ import numpy as np
 from common import arguments, write
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.lab.sweep.conduct import conduct
-from fluid_sim_ros.lab.sweep.sweep_file import SweepFile
+from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.sweep_file import SweepFile
 
 _SECONDS = 1.0
 _SCENE = 'rov'

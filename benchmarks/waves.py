@@ -27,9 +27,18 @@ from plugin_common import (
 from scipy.integrate import quad, solve_ivp
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.physics.wave_spectrum import jonswap_shape, jonswap_spectrum, jonswap_waves
-from fluid_sim_ros.physics.waves import Sea, dispersion_wavenumber, regular_waves, wave_flow
-from fluid_sim_ros.recording.water import surface_heights
+from fluid_sim_ros.physics.environment.wave_spectrum import (
+    jonswap_shape,
+    jonswap_spectrum,
+    jonswap_waves,
+)
+from fluid_sim_ros.physics.environment.waves import (
+    Sea,
+    dispersion_wavenumber,
+    regular_waves,
+    wave_flow,
+)
+from fluid_sim_ros.recording.pictures.water import surface_heights
 
 G = 9.81
 HEIGHT, PERIOD = 2.0, 8.0  # of the sea: significant [m], of the peak [s]

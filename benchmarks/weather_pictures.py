@@ -9,8 +9,12 @@ import numpy as np
 from common import ROOT
 from plugin_common import Array, body_plugin, ellipsoid, free_body, load, world
 
-from fluid_sim_ros.physics.medium import logarithmic_profile, power_law_profile, table_profile
-from fluid_sim_ros.physics.turbulence import (
+from fluid_sim_ros.physics.environment.medium import (
+    logarithmic_profile,
+    power_law_profile,
+    table_profile,
+)
+from fluid_sim_ros.physics.environment.turbulence import (
     dryden_spectra,
     turbulence_intensity,
     turbulence_length,

@@ -17,7 +17,7 @@ from mujoco import rollout
 from plugin_common import Array, body_plugin, ellipsoid, free_body, load, world
 from scipy.signal import welch
 
-from fluid_sim_ros.physics.turbulence import (
+from fluid_sim_ros.physics.environment.turbulence import (
     angular_rate_spectra,
     dryden_covariance,
     dryden_spectra,

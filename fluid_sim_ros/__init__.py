@@ -17,11 +17,11 @@ __version__ = '0.1.0'
 __all__ = ['Scene', 'Simulation', 'load_plugins', 'plugin_library', 'scene_names']
 
 _HOMES = {
-    'Scene': 'fluid_sim_ros.scene',
-    'Simulation': 'fluid_sim_ros.simulation',
+    'Scene': 'fluid_sim_ros.scene.scene',
+    'Simulation': 'fluid_sim_ros.simulation.simulation',
     'load_plugins': 'fluid_sim_ros.plugins',
     'plugin_library': 'fluid_sim_ros.plugins',
-    'scene_names': 'fluid_sim_ros.scene',
+    'scene_names': 'fluid_sim_ros.scene.scene',
 }
 
 

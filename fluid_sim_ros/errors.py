@@ -1,6 +1,7 @@
 """Errors that the package raises; each message is one line that says what is allowed."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class FluidSimError(Exception):
@@ -49,3 +50,25 @@ class DivergedError(FluidSimError):
 def listed(names: Iterable[str]) -> str:
     """Return names as the tail of an error message: ``a, b, c`` or ``(none)``."""
     return ', '.join(names) or '(none)'
+
+
+@contextmanager
+def needed_for(what: str) -> Iterator[None]:
+    """
+    Say in one line what to do where a package is missing that ``what`` needs.
+
+    Raises
+    ------
+    MissingExtraError
+        In place of a ModuleNotFoundError about a package of others.
+
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith('fluid_sim_ros'):
+            raise
+        raise MissingExtraError(
+            f'{what} needs {error.name}, which is not installed; '
+            'fluid_sim doctor says what to type'
+        ) from None

@@ -1,10 +1,62 @@
-"""Simulated time at step boundaries, kept exactly, also where the timestep changes on the way."""
+"""Simulated time in whole steps, kept exactly, also where the timestep changes on the way."""
 
 import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from fluid_sim_ros.schedule import exact
+from fluid_sim_ros.errors import ConfigError
+
+#: A step number that no run reaches.
+NEVER = 1 << 62
+
+
+def exact(value: float | Fraction) -> Fraction:
+    """Return the decimal number that a person wrote, exactly (``0.002`` -> 1/500)."""
+    return value if isinstance(value, Fraction) else Fraction(repr(float(value)))
+
+
+def whole_steps(seconds: float, timestep: float, what: str) -> int:
+    """
+    Return how many steps a duration takes.
+
+    Raises
+    ------
+    ConfigError
+        If the duration is not a whole number of timesteps.
+
+    """
+    steps = exact(seconds) / exact(timestep)
+    if steps.denominator != 1:
+        raise ConfigError(
+            f'{what}: {seconds:g} s is not a whole number of timesteps of {timestep:g} s'
+        )
+    return steps.numerator
+
+
+def period_steps(rate_hz: float, timestep: float, what: str) -> int:
+    """
+    Return the number of steps between two outputs at a rate.
+
+    Raises
+    ------
+    ConfigError
+        If the rate is not above 0 or does not divide the step rate.
+
+    """
+    if not rate_hz > 0:
+        raise ConfigError(f'{what}: rate {rate_hz:g} Hz must be above 0')
+    steps = 1 / (exact(rate_hz) * exact(timestep))
+    if steps.denominator != 1:
+        highest = float(1 / exact(timestep))
+        raise ConfigError(
+            f'{what}: rate {rate_hz:g} Hz does not divide the step rate of {highest:g} Hz'
+        )
+    return steps.numerator
+
+
+def duration_steps(seconds: float, timestep: float) -> int:
+    """Return the step at which a run of ``seconds`` ends; 0 s means never."""
+    return whole_steps(seconds, timestep, 'duration') if seconds else NEVER
 
 
 @dataclass(frozen=True)

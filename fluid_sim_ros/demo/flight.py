@@ -131,7 +131,7 @@ class _Children:
     def start_controller(self) -> None:
         plan = [number for waypoint in WAYPOINTS for number in waypoint]
         self.controller = self._start(
-            'quad_controller', 'fluid_sim_ros.ros.quad_controller', scene=SCENE, waypoints=plan
+            'quad_controller', 'fluid_sim_ros.ros.controllers.quad', scene=SCENE, waypoints=plan
         )
 
     def _start(self, name: str, module: str, **parameters: Any) -> Child:

@@ -14,7 +14,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.log import Log, LogMessage
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import resimulate
+from fluid_sim_ros.recording.replay.resimulate import resimulate
 
 #: Simulated time of the still [s]: leaning into the gust.
 _STILL_AT = 12.0

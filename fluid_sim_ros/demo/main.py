@@ -7,12 +7,12 @@ from pathlib import Path
 
 from rich.console import Console
 
-from fluid_sim_ros.cli_shared import write_json
 from fluid_sim_ros.demo import plots
 from fluid_sim_ros.demo.flight import fly
 from fluid_sim_ros.demo.flight_log import check_again, read_recording, still
 from fluid_sim_ros.demo.summary import summary, table, targets
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.output.json_file import write_json
 
 
 def main(argv: Sequence[str] | None = None) -> int:

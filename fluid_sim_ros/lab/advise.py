@@ -6,15 +6,15 @@ from dataclasses import replace
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.budgeted_runs import Setting, Trials
 from fluid_sim_ros.lab.cost import Curve, Report, StepCost, step_costs
 from fluid_sim_ros.lab.manoeuvre import judged_part
 from fluid_sim_ros.lab.measure import conditions
 from fluid_sim_ros.lab.metrics import METRICS, metric
 from fluid_sim_ros.lab.pareto import tie
-from fluid_sim_ros.lab.problem import Problem, fits, fly, of_scene
+from fluid_sim_ros.lab.problems.problem import Problem, fits, fly, of_scene
 from fluid_sim_ros.lab.reference import Reference, find_reference
 from fluid_sim_ros.lab.search import LADDER, Candidate, search, with_limit
-from fluid_sim_ros.lab.trials import Setting, Trials
 from fluid_sim_ros.scene import Scene
 
 #: How far below the model's own timestep the search goes.

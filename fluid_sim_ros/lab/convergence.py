@@ -5,9 +5,9 @@ import statistics
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from fluid_sim_ros.lab.norms import attitude_error, position_error
-from fluid_sim_ros.lab.problem import Array, Flight, Problem, fits, fly
-from fluid_sim_ros.lab.trials import Setting
+from fluid_sim_ros.lab.budgeted_runs import Setting
+from fluid_sim_ros.lab.motion_errors import attitude_error, position_error
+from fluid_sim_ros.lab.problems.problem import Array, Flight, Problem, fits, fly
 
 #: Errors of the timestep alone are taken at this share of the run: later they fold back into
 #: the size of the motion, and show no order.

@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, DivergedError
-from fluid_sim_ros.lab.problem import Problem
-from fluid_sim_ros.runner import duration_steps
+from fluid_sim_ros.lab.problems.problem import Problem
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import duration_steps
 
 Report = Callable[[str, int, int], None]  # what is being done, how far, of how many
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fluid_sim_ros.lab.bodies import RADIUS, Body
-from fluid_sim_ros.lab.problem import INTEGRATORS
+from fluid_sim_ros.lab.problems.bodies import RADIUS, Body
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 
 #: Share of the explicit stability limit, and of a radian, that a step may take.
 _SMALL = 0.02

@@ -7,10 +7,10 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, DivergedError
 from fluid_sim_ros.lab.metrics import vehicle_size
-from fluid_sim_ros.lab.norms import attitude_error, position_error
-from fluid_sim_ros.lab.problem import Problem, observed
+from fluid_sim_ros.lab.motion_errors import attitude_error, position_error
+from fluid_sim_ros.lab.problems.problem import Problem, observed
 from fluid_sim_ros.scene import Scene, scene_names
-from fluid_sim_ros.schedule import whole_steps
+from fluid_sim_ros.step_clock import whole_steps
 
 #: Contacts are looked for so often [s]; MuJoCo's own contacts last at least twice as long.
 _LOOK = 0.005

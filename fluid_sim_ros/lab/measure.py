@@ -14,6 +14,7 @@ import mujoco
 
 from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.budgeted_runs import Setting
 from fluid_sim_ros.lab.convergence import (
     Converged,
     Flown,
@@ -23,18 +24,17 @@ from fluid_sim_ros.lab.convergence import (
     orders,
 )
 from fluid_sim_ros.lab.cost import ROUNDS, Curve, Report, StepCost, step_costs
-from fluid_sim_ros.lab.norms import (
+from fluid_sim_ros.lab.motion_errors import (
     Sensitivity,
     errors,
     regime,
     regime_error,
     sensitivity,
 )
+from fluid_sim_ros.lab.parallel import side_by_side
 from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problem import INTEGRATORS, Array, Flight, Problem
-from fluid_sim_ros.lab.side_by_side import side_by_side
-from fluid_sim_ros.lab.trials import Setting
-from fluid_sim_ros.schedule import whole_steps
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Array, Flight, Problem
+from fluid_sim_ros.step_clock import whole_steps
 
 _SILENT: Report = lambda what, done, total: None  # noqa: E731 (a default of several)
 

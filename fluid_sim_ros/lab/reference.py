@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.lab.budgeted_runs import Setting, Trials
 from fluid_sim_ros.lab.cost import Report
 from fluid_sim_ros.lab.metrics import Metric, metric
-from fluid_sim_ros.lab.norms import Sensitivity, sensitivity
-from fluid_sim_ros.lab.problem import Flight, Problem
-from fluid_sim_ros.lab.trials import Setting, Trials
+from fluid_sim_ros.lab.motion_errors import Sensitivity, sensitivity
+from fluid_sim_ros.lab.problems.problem import Flight, Problem
 
 #: RK4 converges fastest; where it fails (stiff drag), a method that stays bounded.
 _INTEGRATORS = ('RK4', 'implicitfast')

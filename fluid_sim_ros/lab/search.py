@@ -5,10 +5,10 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
+from fluid_sim_ros.lab.budgeted_runs import Setting, Trials
 from fluid_sim_ros.lab.cost import Report
-from fluid_sim_ros.lab.problem import fits
+from fluid_sim_ros.lab.problems.problem import fits
 from fluid_sim_ros.lab.reference import Reference
-from fluid_sim_ros.lab.trials import Setting, Trials
 
 #: Timesteps tried: 1, 2, 5 times powers of ten [s].
 LADDER = tuple(float(f'{digit}e{power}') for power in range(-2, -7, -1) for digit in (5, 2, 1))

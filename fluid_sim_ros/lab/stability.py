@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.bodies import AXES, Body, Family, family
-from fluid_sim_ros.lab.boundaries import critical
 from fluid_sim_ros.lab.cost import Report
-from fluid_sim_ros.lab.fates import fate, one_step
 from fluid_sim_ros.lab.measure import conditions
-from fluid_sim_ros.lab.problem import INTEGRATORS
+from fluid_sim_ros.lab.outcomes import fate, one_step
+from fluid_sim_ros.lab.problems.bodies import AXES, Body, Family, family
+from fluid_sim_ros.lab.problems.boundaries import critical
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 
 #: Bisection ends when the timestep is known to this factor.
 _PRECISION = 1.05

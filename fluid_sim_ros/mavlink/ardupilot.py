@@ -9,7 +9,7 @@ import time
 from fractions import Fraction
 from typing import Any
 
-from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.json_packets import (
     LONGEST_PACKET,
     JsonState,
@@ -21,10 +21,10 @@ from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import ActuatorMap
 from fluid_sim_ros.mavlink.sockets import Datagram, UdpPort
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
-from fluid_sim_ros.schedule import exact
-from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import exact
 
 #: Port of the first instance, and from one instance to the next.
 FIRST_PORT, PORT_STEP = 9002, 10

@@ -1,14 +1,14 @@
-"""Opens the bridge of a protocol; see ``fluid_sim_ros.autopilot``."""
+"""Opens the bridge of a protocol; see ``fluid_sim_ros.loop.autopilot_port``."""
 
 from dataclasses import replace
 
-from fluid_sim_ros.autopilot import (
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.loop.autopilot_port import (
     PROTOCOLS,
     AutopilotOptions,
     Bridge,
     Surroundings,
 )
-from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.mavlink.ardupilot import ArduPilotBridge
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
 from fluid_sim_ros.simulation import Simulation

@@ -10,12 +10,12 @@ from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
-from fluid_sim_ros.physics.atmosphere import (
+from fluid_sim_ros.physics.environment.atmosphere import (
     pressure_altitude,
     standard_pressure,
     standard_temperature,
 )
-from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.sensors.geodesy import LocalFrame
 from fluid_sim_ros.sensors.sensor import Sensor

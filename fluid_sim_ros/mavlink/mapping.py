@@ -11,8 +11,8 @@ from pydantic import Field, model_validator
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.t200 import t200_table
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.schema import Number, Positive, Strict, parse, read_yaml
-from fluid_sim_ros.vehicle import Vehicle
+from fluid_sim_ros.scene.vehicle import Vehicle
+from fluid_sim_ros.schema.base import Number, Positive, Strict, parse, read_yaml
 
 #: Outputs of a HIL_ACTUATOR_CONTROLS and of the longest servo packet.
 OUTPUTS = {'px4': 16, 'ardupilot': 32}

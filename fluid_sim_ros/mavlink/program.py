@@ -10,10 +10,10 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from fluid_sim_ros.autopilot import AutopilotOptions
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
-from fluid_sim_ros.scene_schema import Home
+from fluid_sim_ros.schema.scene import Home
 
 #: Longest line of the log that is shown [bytes]; the rest follows as another.
 _LONGEST_LINE = 1000

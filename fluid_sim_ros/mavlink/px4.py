@@ -11,16 +11,16 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.hil_messages import Actuators, HilCodec
 from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, AutopilotFile
 from fluid_sim_ros.mavlink.sockets import TcpServer
 from fluid_sim_ros.mavlink.sticks import Sticks
-from fluid_sim_ros.schedule import exact
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import exact
 
 #: Port of the first instance; the next ones follow.
 FIRST_PORT = 4560

@@ -14,10 +14,10 @@ from fluid_sim_ros.messages.cdr import (
     read_joy,
     read_stamped_pair,
 )
-from fluid_sim_ros.scene_schema import ScheduledEvent
+from fluid_sim_ros.scene.vehicle import Vehicle
+from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.thrust_matrix import WrenchAllocation
-from fluid_sim_ros.vehicle import Vehicle
+from fluid_sim_ros.simulation.thrust_matrix import WrenchAllocation
 
 Array = NDArray[np.float64]
 

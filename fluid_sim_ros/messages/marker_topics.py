@@ -10,8 +10,8 @@ from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.vehicle import Vehicle, weight_in_air
 
 Array = NDArray[np.float64]
 

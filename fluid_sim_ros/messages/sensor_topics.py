@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.messages import sensor_templates, templates
 from fluid_sim_ros.messages.topic import StateTopic
-from fluid_sim_ros.sensor_schema import Channel
+from fluid_sim_ros.schema.sensors import Channel
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.sensors.airspeed import Airspeed
 from fluid_sim_ros.sensors.beams import Dvl, Rangefinder

@@ -14,10 +14,10 @@ from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.runner import period_steps
+from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.vehicle import Vehicle
+from fluid_sim_ros.step_clock import period_steps
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.new_vehicle.design import GRAVITY, Design, check_body, hover_thrusts
 from fluid_sim_ros.new_vehicle.layout import Medium, thrusters_of
 from fluid_sim_ros.new_vehicle.mjcf import mjcf_of
-from fluid_sim_ros.schema import NAME_PATTERN
+from fluid_sim_ros.schema.base import NAME_PATTERN
 from fluid_sim_ros.simulation import Simulation
 
 #: How long the trial of a new vehicle runs [s].

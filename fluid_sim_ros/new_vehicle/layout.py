@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.schema import Name, NotNegative, Positive, Strict, Vector, parse, read_yaml
+from fluid_sim_ros.schema.base import Name, NotNegative, Positive, Strict, Vector, parse, read_yaml
 
 Array = NDArray[np.float64]
 Medium = Literal['air', 'water']

@@ -45,7 +45,7 @@ class Native:
     0, 1 (accelerations) or 2 (wrenches, too); both release the interpreter lock while they run,
     as all do. ``look(model, data, scratch, bases, count, start, largest, rows)`` raises the
     largest speed, tilt and distance from the start of each base; ``runs`` takes many runs in one
-    call (``many_runs.ManyRuns``).
+    call (``simulation.batch.BatchRuns``).
     ``set_medium(model, data, wind, current) -> int`` takes addresses of three numbers or 0,
     ``get_medium`` the same; ``enable_medium(model, data, on)``; ``seed_medium(model, data,
     seed)``; ``flow(model, data, body, point, out)``.

@@ -15,10 +15,10 @@ from pydantic import TypeAdapter
 
 from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions
+from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.streams import SavedStreams
+from fluid_sim_ros.simulation.wind_and_current import SavedStreams
 
 #: Version of the layout of the attachments below.
 FORMAT = 1

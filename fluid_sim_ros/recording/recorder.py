@@ -16,9 +16,9 @@ from typing import IO, Any
 
 from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import ConfigError, FluidSimError
+from fluid_sim_ros.loop.recorder_port import EVENTS, EVENTS_TYPE, RecordedTopic, RecorderOptions
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.templates import Template
-from fluid_sim_ros.recorder_tap import EVENTS, EVENTS_TYPE, RecordedTopic, RecorderOptions
 from fluid_sim_ros.recording import rosbag2, wire
 from fluid_sim_ros.recording.description import describe
 from fluid_sim_ros.simulation import Simulation
@@ -34,7 +34,7 @@ _END_TIMEOUT = 60.0
 
 class Recorder:
     """
-    A recording in progress; see ``recorder_tap.Tap``.
+    A recording in progress; see ``loop.recorder_port.RecorderPort``.
 
     Attributes
     ----------
@@ -254,7 +254,7 @@ class Recorder:
 def open_recorder(
     simulation: Simulation, topics: Sequence[RecordedTopic], options: RecorderOptions
 ) -> Recorder:
-    """Begin to record; see ``recorder_tap.open_recorder``."""
+    """Begin to record; see ``loop.recorder_port.open_recorder``."""
     return Recorder(simulation, topics, options)
 
 

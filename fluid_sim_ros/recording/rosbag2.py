@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from fluid_sim_ros.recorder_tap import RecordedTopic
+from fluid_sim_ros.loop.recorder_port import RecordedTopic
 
 #: Version of metadata.yaml that ROS 2 Jazzy writes.
 _VERSION = 9

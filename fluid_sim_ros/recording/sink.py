@@ -5,14 +5,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions, selected
 from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.commands import Commands
 from fluid_sim_ros.messages.state_topics import StateTopics
-from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions, selected
 from fluid_sim_ros.recording.recorder import Recorder
-from fluid_sim_ros.schedule import NEVER
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import NEVER
 
 
 class RecordingSink:

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from fluid_sim_ros.autopilot import AutopilotOptions, Bridge, Surroundings, open_bridge
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Bridge, Surroundings, open_bridge
 from fluid_sim_ros.messages.commands import sticks_topic
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.simulation import Simulation

@@ -11,15 +11,15 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 
-from fluid_sim_ros.autopilot import Bridge
 from fluid_sim_ros.errors import listed
-from fluid_sim_ros.grid_watch import GridWatch
-from fluid_sim_ros.pacing import Lockstep, RealTime
+from fluid_sim_ros.loop.autopilot_port import Bridge
+from fluid_sim_ros.loop.grid_watch import GridWatch
+from fluid_sim_ros.loop.pacing import Lockstep, RealTime
+from fluid_sim_ros.loop.recorder_port import Tap
+from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.inputs import Inputs
-from fluid_sim_ros.runner import Runner
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
 

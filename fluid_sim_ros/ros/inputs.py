@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState, Joy
 from std_msgs.msg import Float64MultiArray
 
 from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
+from fluid_sim_ros.loop.recorder_port import Tap
 from fluid_sim_ros.messages.commands import (
     JOINT_STATE,
     JOY,
@@ -24,7 +25,6 @@ from fluid_sim_ros.messages.commands import (
     CommandTopic,
     Effect,
 )
-from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.polled_group import PolledGroup
 from fluid_sim_ros.ros.stale_commands import StaleCommands
 from fluid_sim_ros.simulation import Simulation

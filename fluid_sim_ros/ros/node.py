@@ -17,7 +17,7 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.requests import RequestQueue
+from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.ros import parameters
 from fluid_sim_ros.ros.diagnostics import GraphMonitor
 from fluid_sim_ros.ros.process import run_process

@@ -27,6 +27,7 @@ from sensor_msgs.msg import (
 )
 from visualization_msgs.msg import MarkerArray
 
+from fluid_sim_ros.loop.recorder_port import Tap
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
 from fluid_sim_ros.messages.marker_topics import MARKERS
 from fluid_sim_ros.messages.sensor_topics import (
@@ -39,7 +40,6 @@ from fluid_sim_ros.messages.sensor_topics import (
 )
 from fluid_sim_ros.messages.state_topics import CLOCK, ODOMETRY, TRANSFORMS, StateTopics
 from fluid_sim_ros.messages.topic import StateTopic
-from fluid_sim_ros.recorder_tap import Tap
 from fluid_sim_ros.ros.inputs import REFRESH_PERIOD
 from fluid_sim_ros.simulation import Simulation
 

@@ -7,12 +7,11 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from fluid_sim_ros.autopilot import LOOPBACK, PROTOCOLS
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.fluid_rungs import FLUID_RUNGS
-from fluid_sim_ros.integrators import INTEGRATORS
+from fluid_sim_ros.loop.autopilot_port import LOOPBACK, PROTOCOLS
 from fluid_sim_ros.ros import parameter_table
 from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
 
 PACINGS = ('realtime', 'free', 'lockstep')
 MATCHES = ('stamp', 'count')

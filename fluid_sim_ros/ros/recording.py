@@ -6,7 +6,7 @@ from typing import Any
 
 from rclpy.node import Node
 
-from fluid_sim_ros.recorder_tap import (
+from fluid_sim_ros.loop.recorder_port import (
     RecordedTopic,
     RecorderOptions,
     Tap,

@@ -22,8 +22,8 @@ from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.loop.recorder_port import RecordedTopic
 from fluid_sim_ros.messages import templates
-from fluid_sim_ros.recorder_tap import RecordedTopic
 from fluid_sim_ros.ros.process import end_on_signal, executor_thread
 
 NODE_NAME = 'fluid_sim_replay'

@@ -6,18 +6,18 @@ from typing import Any
 
 from rclpy.node import Node
 
-from fluid_sim_ros.autopilot import AutopilotPacing
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
-from fluid_sim_ros.pacing import Lockstep, Pacing, RealTime
-from fluid_sim_ros.requests import RequestQueue
+from fluid_sim_ros.loop.autopilot_port import AutopilotPacing
+from fluid_sim_ros.loop.pacing import Lockstep, Pacing, RealTime
+from fluid_sim_ros.loop.request_queue import RequestQueue
+from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.ros.autopilot import check_pacing, start_autopilot
 from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.recording import start_recording
-from fluid_sim_ros.runner import Runner, duration_steps, period_steps
-from fluid_sim_ros.schedule import whole_steps
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import duration_steps, period_steps, whole_steps
 
 #: Wall time between two publications of the present state while held in lockstep [s].
 _HOLD_PERIOD = 0.1

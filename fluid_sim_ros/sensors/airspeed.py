@@ -3,10 +3,10 @@
 import math
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.atmosphere import DENSITY
+from fluid_sim_ros.physics.environment.atmosphere import DENSITY
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.sensor_schema import AirspeedFile
-from fluid_sim_ros.sensors.fluids import Fluids
+from fluid_sim_ros.scene.media import Fluids
+from fluid_sim_ros.schema.sensors import AirspeedFile
 from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 
 
@@ -33,7 +33,7 @@ class Airspeed(Sensor):
 
     def __init__(self, carrier: Carrier, config: AirspeedFile) -> None:
         super().__init__(carrier, config, ((config.pressure, 1),))
-        fluids = Fluids.of(carrier.simulation)
+        fluids = Fluids.of(carrier.simulation.model, carrier.simulation.streams)
         self._surface, self._density = fluids.surface, fluids.air_density
         if not self._density > 0:
             raise ConfigError(f'{self.where}: the scene has no air')

@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.sensor_schema import Channel, DvlFile, RangefinderFile, SensorFile
+from fluid_sim_ros.schema.sensors import Channel, DvlFile, RangefinderFile, SensorFile
 from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 
 #: Rays step over the geoms of the vehicle's moving parts, at most this many.

@@ -2,7 +2,7 @@
 
 import math
 
-from fluid_sim_ros.scene_schema import Home
+from fluid_sim_ros.schema.scene import Home
 
 #: WGS 84 (NGA.STND.0036, 2014): semi-major axis [m] and flattening.
 SEMI_MAJOR_AXIS = 6_378_137.0

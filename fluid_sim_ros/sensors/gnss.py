@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fluid_sim_ros.sensor_schema import GnssFile
-from fluid_sim_ros.sensors.fluids import Fluids
+from fluid_sim_ros.scene.media import Fluids
+from fluid_sim_ros.schema.sensors import GnssFile
 from fluid_sim_ros.sensors.geodesy import LocalFrame
 from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 
@@ -31,7 +31,7 @@ class Gnss(Sensor):
         super().__init__(carrier, config, channels)
         self.position_w, self.velocity_w = self.values[:3], self.values[3:]
         self.geodetic = np.zeros(3)
-        self._surface = Fluids.of(carrier.simulation).surface
+        self._surface = Fluids.of(carrier.simulation.model, carrier.simulation.streams).surface
         self._frame = LocalFrame(carrier.simulation.scene.home)
 
     def _measure(self, values: Array) -> bool:

@@ -1,7 +1,7 @@
 """The inertial measurement unit: specific force and angular rates at its place."""
 
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.sensor_schema import ImuFile
+from fluid_sim_ros.schema.sensors import ImuFile
 from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 
 #: Dither of an IMU without resolution: below the noise of any, above the rounding of float32.

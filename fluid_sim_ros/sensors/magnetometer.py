@@ -4,8 +4,8 @@ import numpy as np
 from pygeomag import GeoMag
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.scene_schema import Home
-from fluid_sim_ros.sensor_schema import MagnetometerFile
+from fluid_sim_ros.schema.scene import Home
+from fluid_sim_ros.schema.sensors import MagnetometerFile
 from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 
 #: Dither of a magnetometer without resolution [T]: 1 mG.

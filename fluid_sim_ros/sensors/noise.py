@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.sensor_schema import Channel
+from fluid_sim_ros.schema.sensors import Channel
 
 Array = NDArray[np.float64]
 

@@ -1,13 +1,13 @@
 """Barometer and water pressure sensor: the static pressure of what is around them."""
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.atmosphere import (
+from fluid_sim_ros.physics.environment.atmosphere import (
     pressure_altitude,
     standard_pressure,
     standard_temperature,
 )
-from fluid_sim_ros.sensor_schema import BarometerFile, PressureFile
-from fluid_sim_ros.sensors.fluids import Fluids
+from fluid_sim_ros.scene.media import Fluids
+from fluid_sim_ros.schema.sensors import BarometerFile, PressureFile
 from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
 
 #: Dither of a pressure sensor without resolution [Pa]: 8 cm of air, 0.1 mm of water.
@@ -28,7 +28,7 @@ class _Static(Sensor):
 
     def __init__(self, carrier: Carrier, config: BarometerFile | PressureFile) -> None:
         super().__init__(carrier, config, ((config.pressure, 1),), _DITHER)
-        self._fluids = Fluids.of(carrier.simulation)
+        self._fluids = Fluids.of(carrier.simulation.model, carrier.simulation.streams)
         self._home = carrier.simulation.scene.home.altitude
         gravity = -float(carrier.simulation.model.opt.gravity[2])
         self._weight = self._fluids.water_density * gravity

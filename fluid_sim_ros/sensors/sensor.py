@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.runner import period_steps
-from fluid_sim_ros.schedule import whole_steps
-from fluid_sim_ros.sensor_schema import Channel, SensorFile
+from fluid_sim_ros.scene.vehicle import Vehicle
+from fluid_sim_ros.schema.sensors import Channel, SensorFile
 from fluid_sim_ros.sensors.noise import Errors
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.vehicle import Vehicle
+from fluid_sim_ros.step_clock import period_steps, whole_steps
 
 Array = NDArray[np.float64]
 

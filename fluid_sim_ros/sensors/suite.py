@@ -2,8 +2,7 @@
 
 import math
 
-from fluid_sim_ros.schedule import NEVER
-from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors.airspeed import Airspeed
 from fluid_sim_ros.sensors.beams import Dvl, Rangefinder
 from fluid_sim_ros.sensors.gnss import Gnss
@@ -12,6 +11,7 @@ from fluid_sim_ros.sensors.magnetometer import Magnetometer
 from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
 from fluid_sim_ros.sensors.sensor import Carrier, SavedSensor, Sensor
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import NEVER
 
 
 class SensorSuite:

@@ -10,7 +10,7 @@ from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.control.multirotor import PRIORITY as MULTIROTOR
 from fluid_sim_ros.control.underwater import PRIORITY as UNDERWATER
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 ROV, _ = plant_of('rov', '')
 QUAD, _ = plant_of('quadrotor', '')

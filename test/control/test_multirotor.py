@@ -9,7 +9,7 @@ from closed_loop import Loop, fly
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 PLANT, _ = plant_of('quadrotor', '')
 HOME = (0.0, 0.0, 1.5)

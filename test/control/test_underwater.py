@@ -9,7 +9,7 @@ from closed_loop import dive
 
 from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 PLANT, _ = plant_of('rov', '')
 TIME, X, Y, Z, YAW, TILT, VX, VY = range(8)

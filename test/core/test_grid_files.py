@@ -5,7 +5,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.grid_files import grid_numbers, read_grid
+from fluid_sim_ros.scene.grid_files import grid_numbers, read_grid
 
 T, X, Y, Z = [0.0, 60.0], [0.0, 10.0, 30.0], [-5.0, 5.0], [-20.0, -10.0, -1.0, 0.0]
 RNG = np.random.default_rng(8)

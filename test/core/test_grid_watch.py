@@ -8,9 +8,9 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.cli import main
-from fluid_sim_ros.grid_files import grid_numbers
-from fluid_sim_ros.grid_watch import GridWatch
-from fluid_sim_ros.physics.grid import checked_grid
+from fluid_sim_ros.loop.grid_watch import GridWatch
+from fluid_sim_ros.physics.environment.grid import checked_grid
+from fluid_sim_ros.scene.grid_files import grid_numbers
 
 MODEL = """<mujoco><option gravity="0 0 0" timestep="0.01"/><extension>
 <plugin plugin="fluid_sim.medium"><instance name="sea"><config key="density" value="1000"/>

@@ -10,7 +10,7 @@ from fluid_sim_ros.messages.marker_topics import MARKERS
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.recording.decode import fields
-from fluid_sim_ros.vehicle import weight_in_air
+from fluid_sim_ros.scene.vehicle import weight_in_air
 
 
 def shown(simulation, vehicle, **settings):

@@ -7,9 +7,10 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError, FluidSimError
-from fluid_sim_ros.pacing import Lockstep, Pacing, RealTime
-from fluid_sim_ros.requests import RequestQueue
-from fluid_sim_ros.runner import NoSource, Runner, duration_steps, period_steps
+from fluid_sim_ros.loop.pacing import Lockstep, Pacing, RealTime
+from fluid_sim_ros.loop.request_queue import RequestQueue
+from fluid_sim_ros.loop.runner import NoSource, Runner
+from fluid_sim_ros.step_clock import duration_steps, period_steps
 
 
 class Recorder:

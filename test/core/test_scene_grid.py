@@ -5,12 +5,12 @@ import pytest
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.grid_files import grid_numbers, pack, read_grid, unpack
-from fluid_sim_ros.physics.grid import grid_flow
+from fluid_sim_ros.loop.runner import NoSource, Pacing, Runner
+from fluid_sim_ros.physics.environment.grid import grid_flow
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import resimulate
+from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.recording.sink import RecordingSink
-from fluid_sim_ros.runner import NoSource, Pacing, Runner
+from fluid_sim_ros.scene.grid_files import grid_numbers, pack, read_grid, unpack
 
 AIR = """<mujoco><option density="1.2" viscosity="1.8e-5" gravity="0 0 0" timestep="0.01"/>
 <worldbody><body name="kite" pos="1 2 5"><freejoint/><geom type="box" size=".3 .2 .1"/></body>

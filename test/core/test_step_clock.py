@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.pacing import Pacing
-from fluid_sim_ros.runner import NoSource, Runner
+from fluid_sim_ros.loop.pacing import Pacing
+from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.step_clock import StepClock
 
 RATES = st.integers(500, 8000)

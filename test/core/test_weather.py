@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros import Scene, Simulation
-from fluid_sim_ros.cli_scene import examine_scene
+from fluid_sim_ros.cli.scene import examine_scene
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.weather import MEDIUM, OPTION
+from fluid_sim_ros.scene.media import MEDIUM, OPTION
 
 AIR = """
 <mujoco>

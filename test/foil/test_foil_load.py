@@ -10,8 +10,8 @@ from foil_common import AEROSONDE, foil_world, generalized
 from mujoco.batch import Batch
 from plugin_common import config, load, refusal
 
+from fluid_sim_ros.physics.environment.waves import regular_waves, wave_flow
 from fluid_sim_ros.physics.foil import WingParams, wing_wrench
-from fluid_sim_ros.physics.waves import regular_waves, wave_flow
 from fluid_sim_ros.plugins.native import native
 
 WING = {'span': 1.0, 'chord': 0.2}

@@ -11,14 +11,14 @@ from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advise import advise, settings, snippet, verify
-from fluid_sim_ros.lab.catalogue import problem
+from fluid_sim_ros.lab.budgeted_runs import Trials
 from fluid_sim_ros.lab.manoeuvre import judged_part
 from fluid_sim_ros.lab.metrics import METRICS, metric
-from fluid_sim_ros.lab.problem import of_scene
+from fluid_sim_ros.lab.problems.catalogue import problem
+from fluid_sim_ros.lab.problems.problem import of_scene
 from fluid_sim_ros.lab.reference import find_reference
-from fluid_sim_ros.lab.trials import Trials
 from fluid_sim_ros.scene import scene_names
-from fluid_sim_ros.scene_schema import ScheduledEvent
+from fluid_sim_ros.schema.scene import ScheduledEvent
 
 STATED = """# a scene of mine
 model: sphere

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab.catalogue import PROBLEMS, problem
-from fluid_sim_ros.lab.norms import (
+from fluid_sim_ros.lab.motion_errors import (
     attitude_error,
     errors,
     position_error,
     regime,
     sensitivity,
 )
-from fluid_sim_ros.lab.problem import QUATERNION, fits, fly, of_scene
+from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
+from fluid_sim_ros.lab.problems.problem import QUATERNION, fits, fly, of_scene
 
 # the quasi-steady plate differs from the ellipsoid's drag by its shadow: a model error
 OF_SCENES = ['swimmer', 'quad_in_turbulence']

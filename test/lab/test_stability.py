@@ -8,10 +8,10 @@ import pytest
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab import stability
-from fluid_sim_ros.lab.bodies import FAMILIES, Body, family
-from fluid_sim_ros.lab.boundaries import amplification, critical
 from fluid_sim_ros.lab.false_alarms import random_run
-from fluid_sim_ros.lab.fates import coast, fate
+from fluid_sim_ros.lab.outcomes import coast, fate
+from fluid_sim_ros.lab.problems.bodies import FAMILIES, Body, family
+from fluid_sim_ros.lab.problems.boundaries import amplification, critical
 from fluid_sim_ros.lab.stability import bisect, measured_numbers, plan, run_map
 
 DRAGGED = [name for name, kind in FAMILIES.items() if kind.drag]

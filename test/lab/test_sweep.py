@@ -15,10 +15,10 @@ import pytest
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.errors import ConfigError, FluidSimError, MissingExtraError
-from fluid_sim_ros.lab.sweep.conduct import conduct
-from fluid_sim_ros.lab.sweep.flight import Flights
-from fluid_sim_ros.lab.sweep.results import as_table
-from fluid_sim_ros.lab.sweep.sweep_file import Cases, SweepFile, read_sweep
+from fluid_sim_ros.sweep.flight import Flights
+from fluid_sim_ros.sweep.results import as_table
+from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, read_sweep
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -245,8 +245,8 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     code = textwrap.dedent(f"""
         import os, signal
         from pathlib import Path
-        from fluid_sim_ros.lab.sweep.conduct import conduct
-        from fluid_sim_ros.lab.sweep.sweep_file import SweepFile
+        from fluid_sim_ros.sweep.run_sweep import conduct
+        from fluid_sim_ros.sweep.sweep_file import SweepFile
         def report(done, total):
             if done >= 20:
                 os.kill(os.getpid(), signal.SIGKILL)

@@ -12,14 +12,14 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
-from fluid_sim_ros.lab.sweep.compare import against_cpu
-from fluid_sim_ros.lab.sweep.conduct import conduct
-from fluid_sim_ros.lab.sweep.flight import COLUMNS, Flights
-from fluid_sim_ros.lab.sweep.results import as_table
-from fluid_sim_ros.lab.sweep.sweep_file import SweepFile
-from fluid_sim_ros.lab.sweep.world_models import motion_of, with_masses
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.sweep.compare import against_cpu
+from fluid_sim_ros.sweep.flight import COLUMNS, Flights
+from fluid_sim_ros.sweep.results import as_table
+from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.sweep_file import SweepFile
+from fluid_sim_ros.sweep.warp_models import motion_of, with_masses
 
 #: Kernels are compiled for a minute in a fresh cache, so make test goes without them.
 NO_WARP = pytest.mark.skipif(util.find_spec('mujoco_warp') is None, reason='no mujoco_warp here')

@@ -7,10 +7,15 @@ import time
 from collections.abc import Iterator
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.autopilot import AutopilotOptions, AutopilotPacing, Surroundings, open_bridge
-from fluid_sim_ros.pacing import Pacing
-from fluid_sim_ros.runner import NoSource, Runner
-from fluid_sim_ros.schedule import NEVER
+from fluid_sim_ros.loop.autopilot_port import (
+    AutopilotOptions,
+    AutopilotPacing,
+    Surroundings,
+    open_bridge,
+)
+from fluid_sim_ros.loop.pacing import Pacing
+from fluid_sim_ros.loop.runner import NoSource, Runner
+from fluid_sim_ros.step_clock import NEVER
 
 
 def free_port(protocol: str) -> int:

@@ -19,9 +19,9 @@ from ardupilot_stand_in import (
 )
 from autopilot_peers import Flight, waited
 
-from fluid_sim_ros.autopilot import AutopilotOptions, Surroundings, open_bridge
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.pacing import RealTime
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings, open_bridge
+from fluid_sim_ros.loop.pacing import RealTime
 from fluid_sim_ros.simulation import Simulation
 
 IDLE = padded([1000] * 4)

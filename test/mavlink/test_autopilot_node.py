@@ -14,7 +14,7 @@ from sensor_msgs.msg import Joy
 from std_srvs.srv import Trigger
 
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import resimulate
+from fluid_sim_ros.recording.replay.resimulate import resimulate
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

@@ -11,15 +11,15 @@ import pytest
 from ardupilot_stand_in import Copter, Link, padded
 from autopilot_peers import free_port, waited
 
-from fluid_sim_ros.autopilot import AutopilotOptions
 from fluid_sim_ros.cli import main
-from fluid_sim_ros.cli_flight import AutopilotRun
-from fluid_sim_ros.headless import run_scene
+from fluid_sim_ros.cli.flight import AutopilotRun
+from fluid_sim_ros.cli.run import run_scene
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
 from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.mavlink.program import Program, command_line
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import resimulate
-from fluid_sim_ros.scene_schema import Home
+from fluid_sim_ros.recording.replay.resimulate import resimulate
+from fluid_sim_ros.schema.scene import Home
 
 PROGRAM = Path(__file__).with_name('px4_program.py')
 COMMAND = shlex.join([sys.executable, str(PROGRAM)])

@@ -12,7 +12,7 @@ from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 #: Force and torque in FRD axes of a wrench in FLU axes.
 FRD = np.array([1, -1, -1, 1, -1, -1])

@@ -7,7 +7,7 @@ from closed_loop import Loop
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
 from fluid_sim_ros.new_vehicle.files import design_vehicle, write_vehicle
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 
 @pytest.mark.parametrize(

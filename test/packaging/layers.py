@@ -1,39 +1,34 @@
-"""Which part of the package may import which: the rules, and a walk over the imports."""
+"""The order of the package's rooms: which may import which, and a walk over the imports."""
 
 import ast
 from pathlib import Path
 
 PACKAGE = 'fluid_sim_ros'
-LEAVES = ('ros', 'mavlink', 'recording', 'lab')
-# Read by people through a terminal: they may import anything, and nothing else imports them. So
-# may every module whose name begins with cli_.
-FRONT_ENDS = ('cli', 'demo', 'doctor', 'headless')
-# May stand in any part.
-COMMON = ('errors', 'frames')
+#: Lowest first: a room imports only rooms before it, and itself.
+ORDER = (
+    'errors', 'resources', 'step_clock', 'output',
+    'physics', 'control', 'plugins',
+    'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop',
+    'new_vehicle', 'lab', 'sweep', 'recording', 'mavlink', 'ros',
+    'demo', 'cli',
+)  # fmt: skip
+#: None of these imports another.
+LEAVES = ('new_vehicle', 'lab', 'sweep', 'recording', 'mavlink', 'ros')
+#: The package's own names that stand in its ``__init__`` itself; the rest it hands on.
+OF_THE_PACKAGE = ('__version__',)
 ROS_MODULES = (
     'rclpy', 'rcl_interfaces', 'rosgraph_msgs', 'std_msgs', 'std_srvs', 'geometry_msgs',
     'nav_msgs', 'sensor_msgs', 'diagnostic_msgs', 'visualization_msgs', 'lifecycle_msgs',
     'builtin_interfaces', 'tf2_msgs', 'launch', 'launch_ros',
 )  # fmt: skip
-# What a part may not import from outside the package.
-FOREIGN = {
-    'physics': ('mujoco', *ROS_MODULES),
-    'control': ('mujoco', *ROS_MODULES),
-    'core': ROS_MODULES,
-    'lab': ROS_MODULES,
-    'mavlink': ROS_MODULES,
-    'recording': ROS_MODULES,
-}
+#: Rooms that may use ROS; those that know nothing of MuJoCo.
+KNOW_ROS = ('ros', 'demo', 'cli')
+WITHOUT_MUJOCO = ('errors', 'resources', 'step_clock', 'output', 'physics', 'control')
 
 
-def part_of(module: str) -> str:
-    """Return the part that a module of the package belongs to: a leaf, a front end, or core."""
-    first = module.removeprefix(PACKAGE).lstrip('.').split('.')[0]
-    if first.startswith('cli_'):
-        return 'cli'
-    if first in (*LEAVES, *FRONT_ENDS, *COMMON, 'physics', 'control'):
-        return first
-    return 'core'
+def room_of(module: str) -> str:
+    """Return the room that a module of the package stands in; '' for the package itself."""
+    return module.removeprefix(PACKAGE).lstrip('.').split('.')[0]
 
 
 def imports(path: Path, module: str) -> list[tuple[int, str]]:
@@ -54,24 +49,24 @@ def imports(path: Path, module: str) -> list[tuple[int, str]]:
 
 
 def fault(importer: str, imported: str) -> str:
-    """Return why a part may not import a module, or nothing."""
-    part = part_of(importer)
-    if part in FRONT_ENDS:
-        return ''
+    """Return why a module may not import another, or nothing."""
+    room = room_of(importer)
     outer = imported.split('.')[0]
     if outer != PACKAGE:
-        return f'{part} may not use {outer}' if outer in FOREIGN.get(part, ()) else ''
-    target = part_of(imported)
-    if target in COMMON or target == part:
+        if outer in ROS_MODULES and room not in KNOW_ROS:
+            return f'{room} may not use {outer}'
+        if outer == 'mujoco' and room in WITHOUT_MUJOCO:
+            return f'{room} may not use mujoco'
         return ''
-    if part in COMMON:
-        return f'{part} may import nothing of the package'
-    if target in FRONT_ENDS:
-        return f'nothing may import {target}'
-    if part in ('physics', 'control'):
-        return f'{part} may not import {target}' if target != 'physics' else ''
-    if target in LEAVES:
-        return f'{part} may not import the leaf {target}'
+    target = room_of(imported)
+    if target in (room, *OF_THE_PACKAGE):
+        return ''
+    if target not in ORDER:
+        return f'{target or PACKAGE} is no room: import from where the name stands'
+    if room in LEAVES and target in LEAVES:
+        return f'the leaf {room} may not import the leaf {target}'
+    if ORDER.index(target) > ORDER.index(room):
+        return f'{target} stands above {room}'
     return ''
 
 
@@ -81,8 +76,64 @@ def violations(root: Path) -> list[str]:
     for path in sorted((root / PACKAGE).rglob('*.py')):
         relative = path.relative_to(root).with_suffix('')
         module = '.'.join(relative.parts).removesuffix('.__init__')
+        if module == PACKAGE:  # hands on its public names, on first use
+            continue
+        if room_of(module) not in ORDER:
+            lines.append(f'{path.relative_to(root)}: {room_of(module)} is no room')
+            continue
         for line, imported in imports(path, module):
             reason = fault(module, imported)
             if reason:
                 lines.append(f'{path.relative_to(root)}:{line}: {imported}: {reason}')
     return lines
+
+
+def dynamic_imports(root: Path) -> set[str]:
+    """Return the package's modules that a string names, for ``import_module`` or ``python -m``."""
+    named = set()
+    for path in (root / PACKAGE).rglob('*.py'):
+        for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+            if (
+                isinstance(node, ast.Constant)
+                and isinstance(node.value, str)
+                and node.value.startswith(f'{PACKAGE}.')
+                and all(part.isidentifier() for part in node.value.split('.'))
+            ):
+                named.add(node.value)
+    return named
+
+
+def circles(root: Path) -> list[list[str]]:
+    """Return every circle of imports between modules, those inside functions left out."""
+    graph: dict[str, set[str]] = {}
+    for path in (root / PACKAGE).rglob('*.py'):
+        relative = path.relative_to(root).with_suffix('')
+        module = '.'.join(relative.parts).removesuffix('.__init__')
+        graph[module] = set()
+        for statement in ast.parse(path.read_text(encoding='utf-8')).body:
+            if isinstance(statement, ast.ImportFrom) and not statement.level:
+                for alias in statement.names:
+                    graph[module] |= {statement.module or '', f'{statement.module}.{alias.name}'}
+            elif isinstance(statement, ast.Import):
+                graph[module] |= {alias.name for alias in statement.names}
+    found: list[list[str]] = []
+    state: dict[str, int] = {}
+
+    def visit(module: str, trail: list[str]) -> None:
+        state[module] = 1
+        for target in sorted(graph[module] & graph.keys()):
+            if state.get(target) == 1:
+                found.append([*trail[trail.index(target) :], target])
+            elif target not in state:
+                visit(target, [*trail, target])
+        state[module] = 2
+
+    for module in sorted(graph):
+        if module not in state:
+            visit(module, [module])
+    # a package that hands on a name of a module of its own is no circle
+    return [circle for circle in found if not all(_same_package(circle[0], m) for m in circle)]
+
+
+def _same_package(package: str, module: str) -> bool:
+    return module == package or module.startswith(f'{package}.')

@@ -5,7 +5,8 @@ import sys
 
 import pytest
 
-from fluid_sim_ros import doctor, plugins
+from fluid_sim_ros import plugins
+from fluid_sim_ros.cli import doctor
 
 BASE = ('Python', 'MuJoCo', 'plugin library', 'scenes')
 

@@ -9,7 +9,7 @@ from peer_tasks import TASKS, TIMES, air_rates, air_start, scipy_runs
 from peer_underwater import lagged_runs, own_model, plain_runs, reference, simulation_runs
 
 from fluid_sim_ros.errors import DivergedError
-from fluid_sim_ros.lab.closed_forms import scene_of
+from fluid_sim_ros.lab.problems.closed_forms import scene_of
 
 
 def contestants(task):

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from fluid_sim_ros.physics import atmosphere
+from fluid_sim_ros.physics.environment import atmosphere
 
 
 # geometric altitude [m], temperature [K], pressure [hPa]: ISO 2533:1975, table 5 (geometric)

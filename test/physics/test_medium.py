@@ -4,7 +4,7 @@ from hypothesis import given
 from strategies import floats, vectors
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.medium import (
+from fluid_sim_ros.physics.environment.medium import (
     blended,
     flow_acceleration,
     flow_velocity,

@@ -6,14 +6,14 @@ from scipy.integrate import quad
 from scipy.linalg import expm
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.coloured_noise import (
+from fluid_sim_ros.physics.environment.coloured_noise import (
     between_ticks,
     discretise,
     noise_samples,
     normal_numbers,
     stationary_covariance,
 )
-from fluid_sim_ros.physics.turbulence import (
+from fluid_sim_ros.physics.environment.turbulence import (
     FOOT,
     angular_rate_spectra,
     dryden_covariance,

@@ -9,13 +9,13 @@ from scipy.integrate import quad
 from strategies import floats, seeds
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.wave_spectrum import (
+from fluid_sim_ros.physics.environment.wave_spectrum import (
     jonswap_spectrum,
     jonswap_waves,
     spread_angle,
     uniforms,
 )
-from fluid_sim_ros.physics.waves import wave_flow, wave_surface
+from fluid_sim_ros.physics.environment.waves import wave_flow, wave_surface
 
 
 def moment(order, low=0.0, high=np.inf, **sea):

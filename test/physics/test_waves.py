@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from strategies import floats
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.wave_spectrum import jonswap_waves
-from fluid_sim_ros.physics.waves import (
+from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
+from fluid_sim_ros.physics.environment.waves import (
     breaking_height,
     dispersion_wavenumber,
     regular_waves,

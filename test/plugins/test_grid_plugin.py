@@ -15,8 +15,8 @@ from plugin_common import (
     world,
 )
 
-from fluid_sim_ros.grid_files import grid_numbers
-from fluid_sim_ros.physics.grid import checked_grid, grid_flow
+from fluid_sim_ros.physics.environment.grid import checked_grid, grid_flow
+from fluid_sim_ros.scene.grid_files import grid_numbers
 
 AXES = ([0.0, 1.0, 4.0], [-2.0, 0.0, 0.5, 3.0], [1.0, 2.0], [-5.0, -1.0, 0.0])
 GRID = checked_grid(AXES, np.random.default_rng(2).normal(size=(3, 4, 2, 3, 3)))

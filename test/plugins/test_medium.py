@@ -14,14 +14,14 @@ from plugin_common import (
 )
 
 from fluid_sim_ros.physics.added_mass import accelerating_flow_wrench
-from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
-from fluid_sim_ros.physics.medium import (
+from fluid_sim_ros.physics.environment.medium import (
     flow_acceleration,
     logarithmic_profile,
     power_law_profile,
     slew_limited,
     table_profile,
 )
+from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
 
 AXES = [0.3, 0.2, 0.1]
 VOLUME = 4 / 3 * np.pi * 0.006

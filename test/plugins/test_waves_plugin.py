@@ -14,9 +14,9 @@ from plugin_common import (
 )
 from scipy.integrate import solve_ivp
 
+from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
+from fluid_sim_ros.physics.environment.waves import Sea, regular_waves, wave_flow, wave_surface
 from fluid_sim_ros.physics.free_surface import box_cut
-from fluid_sim_ros.physics.wave_spectrum import jonswap_waves
-from fluid_sim_ros.physics.waves import Sea, regular_waves, wave_flow, wave_surface
 from fluid_sim_ros.plugins.native import MEDIUM_VELOCITY, ROW_WIDTH, native
 
 G = 9.81

@@ -7,13 +7,13 @@ from mujoco import rollout
 from plugin_common import body_plugin, ellipsoid, explicit_force, free_body, load, refusal, world
 from scipy.interpolate import CubicHermiteSpline
 
-from fluid_sim_ros.physics.coloured_noise import (
+from fluid_sim_ros.physics.environment.coloured_noise import (
     NoiseFilter,
     between_ticks,
     noise_samples,
     noise_stream,
 )
-from fluid_sim_ros.physics.turbulence import turbulence_filters, turbulence_intensity
+from fluid_sim_ros.physics.environment.turbulence import turbulence_filters, turbulence_intensity
 from fluid_sim_ros.plugins.native import native
 
 AIR = {'density': 1.2}

@@ -5,12 +5,12 @@ import json
 import numpy as np
 
 from fluid_sim_ros import Simulation
+from fluid_sim_ros.loop.pacing import Pacing
+from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.commands import DEFAULTS, Commands
 from fluid_sim_ros.messages.templates import Template
-from fluid_sim_ros.pacing import Pacing
 from fluid_sim_ros.recording.sink import RecordingSink
-from fluid_sim_ros.runner import NoSource, Runner
 
 
 def thrust_message(values):

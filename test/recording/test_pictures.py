@@ -13,9 +13,9 @@ from flights import fly
 
 from fluid_sim_ros import cli
 from fluid_sim_ros.recording.decode import columns
+from fluid_sim_ros.recording.pictures.report import write_report
+from fluid_sim_ros.recording.pictures.tracks import Track, Tracks, read_tracks
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.report import write_report
-from fluid_sim_ros.recording.tracks import Track, Tracks, read_tracks
 
 
 @pytest.fixture(scope='module')

@@ -210,9 +210,9 @@ FLIGHT = textwrap.dedent("""
     import sys, time
     from pathlib import Path
     from fluid_sim_ros import Simulation
-    from fluid_sim_ros.pacing import RealTime
+    from fluid_sim_ros.loop.pacing import RealTime
     from fluid_sim_ros.recording.sink import RecordingSink
-    from fluid_sim_ros.runner import NoSource, Runner
+    from fluid_sim_ros.loop.runner import NoSource, Runner
     simulation = Simulation('sphere')
     sink = RecordingSink(simulation, Path(sys.argv[1]))
     print(sink.recorder._process.pid, flush=True)

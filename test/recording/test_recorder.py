@@ -13,11 +13,11 @@ from flights import events_of, fly
 from mcap.reader import make_reader
 
 from fluid_sim_ros import Simulation
+from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.headless import run_scene
+from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions, selected
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
-from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions, selected
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.recorder import Recorder
 from fluid_sim_ros.recording.rosbag2 import recorded_topic
@@ -144,7 +144,7 @@ FULL_DISK = textwrap.dedent("""
     import resource, sys
     from pathlib import Path
     from fluid_sim_ros import Simulation
-    from fluid_sim_ros.recorder_tap import RecordedTopic, RecorderOptions
+    from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions
     from fluid_sim_ros.recording.recorder import Recorder
     import random
     resource.setrlimit(resource.RLIMIT_FSIZE, (3 << 20, 3 << 20))

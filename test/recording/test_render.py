@@ -6,8 +6,8 @@ from flights import fly
 from PIL import Image
 
 from fluid_sim_ros import cli
+from fluid_sim_ros.recording.pictures.render import FilmOptions, render
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.render import FilmOptions, render
 
 
 @pytest.fixture(scope='module')

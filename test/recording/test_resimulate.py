@@ -11,7 +11,7 @@ from mcap.writer import CompressionType, Writer
 from fluid_sim_ros import Simulation, cli, scene_names
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import parse_changes, resimulate
+from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
 from fluid_sim_ros.recording.sink import RecordingSink
 
 

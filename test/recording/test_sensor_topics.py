@@ -11,7 +11,7 @@ from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
 from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import resimulate
+from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.sensors import SensorSuite
 
 TOPICS = {

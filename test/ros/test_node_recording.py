@@ -14,9 +14,9 @@ from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-from fluid_sim_ros.headless import run_scene
+from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.recording.resimulate import resimulate
+from fluid_sim_ros.recording.replay.resimulate import resimulate
 
 pytestmark = pytest.mark.ros
 

@@ -10,7 +10,8 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.ros import controller_parameters, parameters, preflight
+from fluid_sim_ros.ros import parameters, preflight
+from fluid_sim_ros.ros.controllers import parameters as controller_parameters
 from fluid_sim_ros.ros.parameter_table import check
 
 pytestmark = pytest.mark.ros

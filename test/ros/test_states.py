@@ -11,7 +11,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.errors import CommandError
-from fluid_sim_ros.ros.controller_base import command_template
+from fluid_sim_ros.ros.controllers.base import command_template
 from fluid_sim_ros.ros.states import read_odometry
 
 numbers = st.lists(st.floats(-1e6, 1e6), min_size=13, max_size=13)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros import Scene, Simulation
-from fluid_sim_ros.scene_schema import VehicleFile
-from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.schema.scene import VehicleFile
+from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 
 #: Mass 2 kg; inertia .02, .03, .04 kg m^2.

@@ -7,9 +7,9 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.atmosphere import standard_pressure
-from fluid_sim_ros.scene_schema import Home
-from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.physics.environment.atmosphere import standard_pressure
+from fluid_sim_ros.schema.scene import Home
+from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.sensors.magnetometer import earth_field
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fluid_sim_ros.scene_schema import Home
+from fluid_sim_ros.schema.scene import Home
 from fluid_sim_ros.sensors.geodesy import LocalFrame, ecef_to_geodetic, geodetic_to_ecef
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.sensor_schema import SensorsFile
+from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 
 G = 9.81

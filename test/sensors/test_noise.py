@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fluid_sim_ros.sensor_schema import Channel
+from fluid_sim_ros.schema.sensors import Channel
 from fluid_sim_ros.sensors.noise import BLOCK, Errors
 
 RATE = 200.0

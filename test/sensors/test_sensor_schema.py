@@ -4,9 +4,9 @@ import pytest
 
 from fluid_sim_ros import Scene, Simulation, scene_names
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.scene_schema import VehicleFile
-from fluid_sim_ros.schema import parse
-from fluid_sim_ros.sensor_schema import SensorFile, SensorsFile, presets
+from fluid_sim_ros.schema.base import parse
+from fluid_sim_ros.schema.scene import VehicleFile
+from fluid_sim_ros.schema.sensors import SensorFile, SensorsFile, presets
 from fluid_sim_ros.sensors import SensorSuite
 
 KINDS = {cls.kind: cls for cls in SensorFile.__subclasses__()}

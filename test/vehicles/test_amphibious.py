@@ -9,7 +9,7 @@ from closed_loop import Loop
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.plugins.native import native
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
 
 SHARE = 0.005  # of the value, as for the other vehicles
 

@@ -12,8 +12,8 @@ from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
 from fluid_sim_ros.errors import CommandError, ConfigError
 from fluid_sim_ros.plugins.native import native
-from fluid_sim_ros.thrust_matrix import WrenchAllocation, thrust_matrix
-from fluid_sim_ros.vehicle_plant import plant_of
+from fluid_sim_ros.simulation.plant import plant_of
+from fluid_sim_ros.simulation.thrust_matrix import WrenchAllocation, thrust_matrix
 
 DRIVEN = ('rov', 'quadrotor', 'bluerov2_heavy', 'bluerov2', 'x500', 'crazyflie', 'aerosonde')
 

@@ -1,0 +1,89 @@
+"""The options of ``fluid_sim run`` and ``fluid_sim doctor`` that have to do with autopilots."""
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from fluid_sim_ros.errors import ConfigError
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from fluid_sim_ros.cli.flight import AutopilotRun
+
+#: What the doctor flies while it looks, and for how long [s].
+_SCENE, _SECONDS = 'x500_ground', 10.0
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add what ``chosen_run`` reads."""
+    group = parser.add_argument_group('autopilot')
+    group.add_argument(
+        '--autopilot', choices=('px4', 'ardupilot'), help='fly with it, in lockstep'
+    )
+    group.add_argument(
+        '--exec', metavar='COMMAND', dest='program',
+        help='start its program too, with the arguments that it needs besides',
+    )  # fmt: skip
+    group.add_argument('--vehicle', metavar='NAME', help='that it flies (default the only one)')
+    group.add_argument(
+        '--mapping', metavar='NAME', help='of config/autopilots, or a file (default by vehicle)'
+    )
+    group.add_argument('--instance', type=int, metavar='N', help='number on this host (default 0)')
+    group.add_argument('--port', type=int, metavar='P', help='to listen on (default by instance)')
+    group.add_argument(
+        '--address', metavar='A', help='to listen on (default 127.0.0.1: this host only)'
+    )
+
+
+def add_doctor_options(parser: argparse.ArgumentParser) -> None:
+    """Add what ``look`` reads."""
+    add_options(parser)
+    parser.add_argument(
+        '--seconds', type=float, default=_SECONDS, metavar='S',
+        help=f'wall time to look (default {_SECONDS:g})',
+    )  # fmt: skip
+
+
+def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
+    """
+    Return who flies by the options of ``add_options``, or None.
+
+    Raises
+    ------
+    ConfigError
+        If an option needs ``--autopilot`` and it is not given.
+
+    """
+    chosen = {
+        name: getattr(arguments, name)
+        for name in ('vehicle', 'mapping', 'instance', 'port', 'address')
+        if getattr(arguments, name) is not None
+    }
+    if arguments.autopilot is None:
+        if chosen or arguments.program:
+            option = 'exec' if arguments.program else next(iter(chosen))
+            raise ConfigError(f'--{option} needs --autopilot')
+        return None
+    # heavy: only when it is needed
+    from fluid_sim_ros.cli.flight import AutopilotRun
+    from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
+
+    return AutopilotRun(AutopilotOptions(arguments.autopilot, **chosen), arguments.program or '')
+
+
+def look(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':
+    """Listen for an autopilot; return what was seen of it as a table and ready for JSON."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.cli import flight as cli_flight
+
+    run = chosen_run(arguments)
+    if run is None:
+        raise ConfigError('the doctor looks for an autopilot with --autopilot')
+    seen = cli_flight.look(run, arguments.scene or _SCENE, arguments.seconds)
+    table = Table('what', 'found', title=f'fluid_sim doctor --autopilot {arguments.autopilot}')
+    for name, value in seen.items():
+        shown = '\n'.join(map(str, value)) if isinstance(value, list) else str(value)
+        table.add_row(name, escape(shown))
+    return table, seen

@@ -1,0 +1,164 @@
+"""The subcommands of ``fluid_sim`` that work on logs."""
+
+import argparse
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.cli import replay as cli_replay
+from fluid_sim_ros.cli.shared import Show, add_command, progress_bar
+from fluid_sim_ros.errors import ConfigError
+
+DAMAGED = 1
+
+
+def add_parsers(commands: Any, show: Show) -> None:
+    """Add the subcommands to the parser of ``fluid_sim``."""
+
+    def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
+        parser = add_command(commands, name, text, function, show)
+        parser.add_argument('log', metavar='LOG', help='.mcap file, or the folder of one')
+        return parser
+
+    add('info', 'what is in a log, and whether it is sound', _info)
+    repair = add('repair', 'write all that is sound in a damaged log to a new one', _repair)
+    repair.add_argument('out', metavar='OUT', type=Path, help='.mcap file, or a folder: a bag')
+
+    plot = add('plot', 'draw a log: PNG pictures and one interactive HTML file', _plot)
+    plot.add_argument('--out', metavar='FOLDER', type=Path, help='default: beside the log')
+    film = add('render', 'make a film of a log: .mp4, .gif, or the last picture as .png', _render)
+    film.add_argument('--out', metavar='FILE', type=Path, help='default: LOG with .mp4')
+    film.add_argument('--size', type=int, nargs=2, metavar=('W', 'H'), default=(640, 480))
+    film.add_argument('--fps', type=float, default=30.0, help='pictures per second (default 30)')
+    film.add_argument('--speed', type=float, default=1.0, help='times real time (default 1)')
+    film.add_argument(
+        '--at', type=float, metavar='S', help='simulated time of a .png [s] (default the end)'
+    )
+    film.add_argument('--vehicle', default='', metavar='NAME', help='that is followed')
+    film.add_argument('--camera', default='', metavar='NAME', help='of the model')
+    export = add('export', 'write a log as tables, one file per topic', _export)
+    kinds = export.add_mutually_exclusive_group(required=True)
+    kinds.add_argument('--csv', metavar='FOLDER', type=Path, help='text, every digit kept')
+    kinds.add_argument('--parquet', metavar='FOLDER', type=Path, help='needs pyarrow')
+    cli_replay.add_options(
+        add('replay', 'publish a log on ROS topics, or fly it again', cli_replay.replay)
+    )
+
+
+def _info(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Column, Table
+
+    from fluid_sim_ros.recording.inspect import info
+
+    result = info(arguments.log)
+    table = Table(
+        Column('topic', overflow='fold'), Column('type', overflow='fold'), 'messages', 'rate',
+        title=f'{result["path"]}: {result["bytes"] / 1e6:.2f} MB, '
+        f'{result["begin_s"]:.2f} to {result["end_s"]:.2f} s',
+    )  # fmt: skip
+    for name, topic in result['topics'].items():
+        rate = topic['rate_hz']
+        shown = '' if rate is None else f'{rate:g} Hz'
+        table.add_row(name, topic['type'], str(topic['messages']), shown)
+    run = result['run']
+    lines = [result['run_fault']] if run is None else [
+        f'scene {run["scene"]}, seed {run["seed"]}, timestep {run["timestep"]:g} s, '
+        f'{run["integrator"]}; fluid_sim_ros {run["versions"]["fluid_sim_ros"]}, '
+        f'MuJoCo {run["versions"]["mujoco"]}'
+    ]  # fmt: skip
+    lines += [f'damaged: {fault}' for fault in result['faults']] or ['sound: every checksum holds']
+    show(arguments.json, Group(table, *map(escape, lines)), result)
+    return DAMAGED if result['faults'] else 0
+
+
+def _repair(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.inspect import repair
+
+    result = repair(arguments.log, arguments.out)
+    lost = ''.join(f'\nlost: {line}' for line in result['lost'])
+    text = f'{result["path"]}: {result["messages"]} messages, {result["bytes"]} bytes{lost}'
+    show(arguments.json, escape(text), result)
+    return 0
+
+
+def _plot(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.inspect import about
+    from fluid_sim_ros.recording.pictures import plots as pictures
+    from fluid_sim_ros.recording.pictures.report import write_report
+    from fluid_sim_ros.recording.pictures.tracks import read_tracks
+    from fluid_sim_ros.recording.reader import open_log
+
+    log = open_log(arguments.log)
+    tracks = read_tracks(log)
+    folder = _folder(arguments.out, log.path)
+    files = [
+        pictures.overview(track, tracks, folder / f'{log.path.stem}_{_file_name(track.name)}.png')
+        for track in tracks.vehicles
+    ]
+    files.append(write_report(tracks, about(log), folder / f'{log.path.stem}.html'))
+    result = {'log': str(log.path), 'files': [str(file) for file in files], 'faults': log.faults}
+    lines = [*(str(file) for file in files), *(f'damaged: {fault}' for fault in log.faults)]
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return DAMAGED if log.faults else 0
+
+
+def _export(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.export import export
+    from fluid_sim_ros.recording.reader import open_log
+
+    log = open_log(arguments.log)
+    kind = 'csv' if arguments.csv else 'parquet'
+    folder = _folder(arguments.csv or arguments.parquet, log.path, f'--{kind}')
+    files = export(log, folder, kind)
+    result = {'log': str(log.path), 'files': files, 'faults': log.faults}
+    lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return DAMAGED if log.faults else 0
+
+
+def _render(arguments: argparse.Namespace, show: Show) -> int:
+    # before MuJoCo is imported: no display is needed
+    os.environ.setdefault('MUJOCO_GL', 'egl')
+    from rich.markup import escape
+
+    from fluid_sim_ros.recording.pictures.render import FilmOptions, render
+    from fluid_sim_ros.recording.reader import open_log
+
+    log = open_log(arguments.log)
+    out = arguments.out or log.path.with_suffix('.mp4')
+    _folder(out.parent, log.path)
+    width, height = arguments.size
+    options = FilmOptions(
+        width, height, arguments.fps, arguments.speed, arguments.vehicle, arguments.camera,
+        arguments.at,
+    )  # fmt: skip
+    with progress_bar('{task.percentage:.0f} %') as progress:
+        task = progress.add_task('rendering', total=1.0)
+        count = render(log, out, options, lambda done: progress.update(task, completed=done))
+    result = {'log': str(log.path), 'file': str(out), 'pictures': count, 'faults': log.faults}
+    lines = [f'{out}: {count} pictures', *(f'damaged: {fault}' for fault in log.faults)]
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return DAMAGED if log.faults else 0
+
+
+def _folder(given: Path | None, log: Path, option: str = '--out') -> Path:
+    """Return the folder for what is made of a log, made when it is not there."""
+    folder = given or log.parent
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ConfigError(f'{option} {folder}: {error.strerror}') from None
+    return folder
+
+
+def _file_name(vehicle: str) -> str:
+    return vehicle.replace('/', '_')

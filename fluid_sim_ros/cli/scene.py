@@ -1,0 +1,61 @@
+"""What the command line says of a scene: whether it loads, its flow, its advised settings."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.cli.doctor import Row
+from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
+from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.scene.media import MEDIUM, OPTION
+from fluid_sim_ros.simulation import Simulation
+
+_ROADS = {
+    OPTION: 'one velocity for the whole scene',
+    MEDIUM: 'each body meets the flow of its place and time',
+}
+
+
+def examine_scene(scene: str | Path) -> list[Row]:
+    """Load a scene and say what its flow is made of."""
+    try:
+        simulation = Simulation(scene)
+    except FluidSimError as error:
+        return [Row('scene', 'broken', str(error), 'mend the named file')]
+    road = simulation.flow_road
+    stated = simulation.scene
+    return [
+        Row('scene', 'ok', f'{stated.name}, {stated.model_path.name}'),
+        Row('vehicles', 'ok', listed(simulation.vehicles)),
+        Row('flow', 'ok', f'{road}: {_ROADS[road]}'),
+        *(
+            Row(name, 'ok', _models(getattr(stated, name)))
+            for name in simulation.streams
+        ),
+    ]  # fmt: skip
+
+
+def advised_settings(scene: str | Path) -> dict[str, Any]:
+    """
+    Return timestep, integrator and fluid that a scene is advised to use, None for its own fluid.
+
+    Raises
+    ------
+    ConfigError
+        If its file holds no advice.
+
+    """
+    loaded = Scene.load(scene)
+    if loaded.advised is None:
+        raise ConfigError(
+            f'{loaded.name}: the scene has no advised settings; '
+            f'fluid_sim advise {scene} --tolerance 0.01 --keep writes them into its YAML file'
+        )
+    return {key: getattr(loaded.advised, key) for key in ('timestep', 'integrator', 'fluid')}
+
+
+def _models(models: Sequence[Any]) -> str:
+    names = ' + '.join(model.model for model in models)
+    if any(getattr(model, 'follow_vehicle', False) for model in models):
+        names += ' (follows the vehicle: gusts depend on the flight)'
+    return names or 'as the model states, or by topic'

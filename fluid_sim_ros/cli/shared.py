@@ -1,0 +1,46 @@
+"""What the subcommands of ``fluid_sim`` share."""
+
+import argparse
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from fluid_sim_ros.errors import needed_for
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, ProgressColumn
+
+#: Shows a table, or writes a result as JSON: (path or None, table, result).
+Show = Callable[[str | None, Any, object], None]
+
+JSON_HELP = 'also write the result as JSON; - is standard output'
+
+
+def add_command(
+    commands: Any,
+    name: str,
+    text: str,
+    function: Callable[[argparse.Namespace, Show], int],
+    show: Show,
+) -> argparse.ArgumentParser:
+    """Add a subcommand with --json; a package that it lacks becomes one line of what to do."""
+
+    def run(arguments: argparse.Namespace) -> int:
+        with needed_for(name):
+            return function(arguments, show)
+
+    parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=text)
+    parser.add_argument('--json', metavar='PATH', help=JSON_HELP)
+    parser.set_defaults(function=run)
+    return parser
+
+
+def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
+    """Return a bar on standard error, so that standard output holds the result only."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    return Progress(
+        TextColumn('{task.description}'), BarColumn(), *columns, TimeRemainingColumn(),
+        console=console, transient=True, disable=not console.is_terminal,
+    )  # fmt: skip

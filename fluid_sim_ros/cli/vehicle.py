@@ -1,0 +1,69 @@
+"""The subcommand of ``fluid_sim`` that makes a new vehicle."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.cli.shared import Show, add_command
+
+
+def add_parser(commands: Any, show: Show) -> None:
+    """Add ``new-vehicle`` to the parser of ``fluid_sim``."""
+    text = 'write model, vehicle file and scene of a vehicle from its mass, size and thrusters'
+    new = add_command(commands, 'new-vehicle', text, _new_vehicle, show)
+    new.add_argument('name', metavar='NAME', help='letters, digits and _, a letter first')
+    new.add_argument('--medium', choices=('air', 'water'), required=True)
+    new.add_argument('--mass', type=float, required=True, metavar='KG')
+    new.add_argument(
+        '--size', type=float, nargs=3, required=True, metavar=('L', 'W', 'H'),
+        help='length, width, height of the box around it [m]',
+    )  # fmt: skip
+    new.add_argument(
+        '--thrusters', required=True, metavar='LAYOUT',
+        help='quad, hexa, octo (air), vectored6, vectored8 (water), or a YAML file',
+    )  # fmt: skip
+    new.add_argument(
+        '--max-thrust', type=float, metavar='N',
+        help='of each thruster of a preset [N] (default: twice the weight in all; or 1 m/s ahead)',
+    )  # fmt: skip
+    new.add_argument(
+        '--buoyancy', type=float, default=0.0, metavar='N',
+        help='net force upward under water [N] (default 0: neutral)',
+    )  # fmt: skip
+    new.add_argument('--out', type=Path, metavar='FOLDER', help='default: NAME')
+    new.add_argument('--force', action='store_true', help='replace files that exist')
+
+
+def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.new_vehicle.files import TRIAL, design_vehicle, write_vehicle
+
+    design = design_vehicle(
+        arguments.name,
+        arguments.medium,
+        arguments.mass,
+        tuple(arguments.size),
+        arguments.thrusters,
+        buoyancy=arguments.buoyancy,
+        max_thrust=arguments.max_thrust,
+    )
+    made = write_vehicle(design, arguments.out or Path(arguments.name), overwrite=arguments.force)
+    result = {
+        'scene': str(made.scene),
+        'files': [str(path) for path in made.files],
+        'thrusters': [thruster.name for thruster in design.thrusters],
+        'thrust_range_n': [list(thruster.limits) for thruster in design.thrusters],
+        'hover_n': design.hover.tolist(),
+        'inertia_kg_m2': design.inertia.tolist(),
+        'volume_m3': design.volume if arguments.medium == 'water' else None,
+        'drift_m': made.drift,
+        'trial_s': TRIAL,
+    }
+    lines = [*result['files'], f'after {TRIAL:g} s it is {made.drift:.2g} m from where it began']
+    if arguments.medium == 'air':
+        share = design.hover / [thruster.limits[1] for thruster in design.thrusters]
+        lines.append(f'hovers on {100 * share.max():.0f} % of its thrust at most')
+    lines.append(f'next: fluid_sim run {made.scene}')
+    show(arguments.json, escape('\n'.join(lines)), result)
+    return 0

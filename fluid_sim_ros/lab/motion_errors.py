@@ -1,0 +1,129 @@
+"""How far two motions are apart: norms of the error, sensitivity to the start, regime."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fluid_sim_ros.lab.problems.problem import (
+    OMEGA,
+    POSITION,
+    QUATERNION,
+    VELOCITY,
+    Array,
+    Flight,
+    Problem,
+    fly,
+)
+
+#: Added to every velocity at the start to see whether it grows [m/s], [rad/s].
+NUDGE = 1e-9
+#: A motion is chaotic for us when its nudge grows by e within a fifth of the run.
+LYAPUNOV_SHARE = 0.2
+#: No regular motion makes so much of a nudge, however soon it did.
+SURE_GROWTH = 1e6
+
+
+def position_error(states: Array, reference: Array) -> Array:
+    """Return the distance [m] of the vehicle that is farthest off, shape (n,)."""
+    apart = np.linalg.norm(states[..., POSITION] - reference[..., POSITION], axis=-1)
+    return np.asarray(apart.max(axis=-1))
+
+
+def attitude_error(states: Array, reference: Array) -> Array:
+    """
+    Return the angle between the attitudes of the vehicle that is farthest off [rad], shape (n,).
+
+    2 atan2(|q_v|, |q_w|) of q_ref^-1 q: no floor at 1e-8, as the trace of the matrix has.
+    """
+    q, r = states[..., QUATERNION], reference[..., QUATERNION]
+    real = np.sum(q * r, axis=-1)
+    # vector part of q_ref^-1 q
+    vector = r[..., :1] * q[..., 1:] - q[..., :1] * r[..., 1:] - np.cross(r[..., 1:], q[..., 1:])
+    angle = 2 * np.arctan2(np.linalg.norm(vector, axis=-1), np.abs(real))
+    return np.asarray(angle.max(axis=-1))
+
+
+def drift(values: Array) -> Array:
+    """Return the size of the change from the start relative to the start's size, shape (n,)."""
+    table = values.reshape(len(values), -1)
+    size = np.linalg.norm(table[0]) or 1.0
+    return np.asarray(np.linalg.norm(table - table[0], axis=1) / size)
+
+
+def errors(problem: Problem, flight: Flight, reference: Array) -> dict[str, float]:
+    """Return every error of a complete run, at the end and the largest over time."""
+    found = {
+        'position_m': position_error(flight.states, reference),
+        'attitude_rad': attitude_error(flight.states, reference),
+    }
+    if problem.invariants is not None:
+        kept = problem.invariants(problem.times, flight.states)
+        found |= {f'{name}_drift': drift(values) for name, values in kept.items()}
+    ends = {name: float(series[-1]) for name, series in found.items()}
+    return ends | {f'{name}_max': float(series.max()) for name, series in found.items()}
+
+
+class Regime(NamedTuple):
+    """What stays comparable of a motion that forgets its start."""
+
+    descent: float  # mean vertical speed over the second half [m/s]
+    frequency: float  # of the vertical velocity, rms(dv/dt)/(2 pi rms(v)) (Rice 1945) [Hz]
+
+
+def regime(times: Array, states: Array) -> Regime:
+    """Return mean descent and frequency of the first vehicle over the second half of a run."""
+    half = len(times) // 2
+    height = states[half:, 0, POSITION][:, 2]
+    step = times[1] - times[0]
+    speed = np.diff(height) / step
+    wave = speed - speed.mean()
+    size = float(np.sqrt(np.mean(wave**2)))
+    rate = float(np.sqrt(np.mean((np.diff(wave) / step) ** 2)))
+    return Regime(float(speed.mean()), rate / (2 * np.pi * size) if size > 0 else 0.0)
+
+
+def regime_error(found: Regime, wanted: Regime) -> float:
+    """Return the larger relative difference of mean descent and frequency."""
+    pairs = zip(found, wanted, strict=True)
+    return max(abs(a - b) / (abs(b) or 1.0) for a, b in pairs)
+
+
+class Sensitivity(NamedTuple):
+    """How a nudge of the start grows."""
+
+    growth: float  # of the largest deviation over the run, as a factor
+    lyapunov_time: float  # time to grow by e from the first to the last quarter [s]
+    chaotic: bool
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the fields for JSON."""
+        time = self.lyapunov_time
+        return {
+            'growth_of_1e-9': self.growth,
+            'lyapunov_time_s': time if np.isfinite(time) else None,
+            'chaotic': self.chaotic,
+        }
+
+
+def sensitivity(problem: Problem, integrator: str, timestep: float, plain: Flight) -> Sensitivity:
+    """
+    Return how a start changed by 1e-9 moves away from ``plain``, on the richest rung.
+
+    Deviations are those of velocity [m/s] and angular velocity [rad/s] together, so that the
+    linear growth of a distance does not count. The growth is taken from the first quarter of the
+    run to the last, so that a transient at the start does not count either.
+    """
+    nudged = fly(problem, problem.rungs[problem.richest], integrator, timestep, NUDGE)
+    count = min(len(nudged.states), len(plain.states))
+    both = slice(VELOCITY.start, OMEGA.stop)
+    apart = np.linalg.norm(
+        nudged.states[:count, :, both] - plain.states[:count, :, both], axis=(1, 2)
+    )
+    if not apart[0] > 0:
+        return Sensitivity(1.0, np.inf, False)
+    growth = float(apart.max() / apart[0])
+    quarter = max(count // 4, 1)
+    later = float(apart[-quarter:].max() / apart[:quarter].max())
+    time = float(0.75 * problem.duration / np.log(later)) if later > 1 else np.inf
+    chaotic = time < LYAPUNOV_SHARE * problem.duration or growth > SURE_GROWTH
+    return Sensitivity(growth, time, bool(chaotic))

@@ -1,0 +1,1 @@
+"""What the laboratory solves: bodies with known solutions, and scenes."""

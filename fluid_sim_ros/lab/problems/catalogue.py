@@ -1,0 +1,40 @@
+"""The problems by name."""
+
+from collections.abc import Callable
+
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.problems import closed_forms, plates, scene_problems, solved_bodies
+from fluid_sim_ros.lab.problems.problem import Problem, of_scene
+from fluid_sim_ros.scene import scene_names
+
+#: Problems of the laboratory; every scene is one too.
+PROBLEMS: dict[str, Callable[[], Problem]] = {
+    make.__name__: make
+    for make in (
+        closed_forms.terminal_velocity, closed_forms.stokes, closed_forms.buoyant_rise,
+        closed_forms.spin_down, closed_forms.water_pendulum, solved_bodies.kirchhoff,
+        solved_bodies.vehicle_in_current, solved_bodies.rov_step, solved_bodies.foil_glide,
+        plates.plate_flutter, plates.plate_tumble, plates.plate_chaos,
+        scene_problems.swimmer, scene_problems.quad_in_turbulence,
+    )
+}  # fmt: skip
+
+
+def problem(name: str) -> Problem:
+    """
+    Return a problem by name, or the one that a scene (name or path) is.
+
+    Raises
+    ------
+    ConfigError
+        For a name that is neither.
+
+    """
+    if name in PROBLEMS:
+        return PROBLEMS[name]()
+    if name not in scene_names() and '.' not in name and '/' not in name:
+        raise ConfigError(
+            f"problem '{name}' is not known; problems: {listed(PROBLEMS)}; "
+            f'scenes: {listed(scene_names())}'
+        )
+    return of_scene(name)

@@ -1,0 +1,1 @@
+"""The loop around a simulation: commands in, states out, at a pace."""

@@ -1,0 +1,210 @@
+"""
+Where the core, the node and the command line meet an autopilot.
+
+The bridge itself is a part of its own (``mavlink``), which neither the core nor the node may
+import: they know the protocol below, and the name under which the part is found when it is
+wanted. An autopilot is met as a pacing: simulated time goes on when it has answered.
+"""
+
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any, ClassVar, Literal, Protocol
+
+from fluid_sim_ros.errors import needed_for
+from fluid_sim_ros.loop.pacing import Pacing, Source
+from fluid_sim_ros.messages.templates import joint_command, multi_array
+from fluid_sim_ros.simulation import Simulation
+
+#: The part that bridges; it has ``open_bridge`` with the arguments of the function below.
+_PART = 'fluid_sim_ros.mavlink.bridge'
+
+PROTOCOLS = ('px4', 'ardupilot')
+LOOPBACK = '127.0.0.1'
+
+
+@dataclass(frozen=True)
+class AutopilotOptions:
+    """
+    Which autopilot flies which vehicle.
+
+    Attributes
+    ----------
+    protocol
+        One of ``PROTOCOLS``.
+    vehicle
+        Vehicle name; empty: the only one of the scene.
+    mapping
+        File of config/autopilots by name or path; empty: ``<protocol>_<vehicle>``.
+    instance
+        Number of the autopilot on this host; shifts the port.
+    port
+        Port to listen on; 0: that of the protocol and the instance.
+    address
+        Address to listen on; anything but a loopback address lets other hosts in.
+    timeout
+        Wall time without an answer after which the autopilot counts as gone [s].
+    sticks_timeout
+        Wall time without moved sticks after which the radio control is lost [s]; 0: never.
+
+    """
+
+    protocol: str
+    vehicle: str = ''
+    mapping: str = ''
+    instance: int = 0
+    port: int = 0
+    address: str = LOOPBACK
+    timeout: float = 1.0
+    sticks_timeout: float = 0.5
+
+
+@dataclass(frozen=True)
+class BridgeStatus:
+    """What a bridge says of itself: ``level`` as in diagnostics, one line, and numbers."""
+
+    level: Literal['ok', 'warn', 'error']
+    message: str
+    values: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Bridge(Protocol):
+    """An autopilot at the other end of a socket; every method runs in the stepping thread."""
+
+    vehicle: str
+    takes_sticks: ClassVar[bool]
+
+    def begin(self, simulation: Simulation) -> None:
+        """Go on from the simulation's present time, which a reset may have set back."""
+
+    def steps_left(self, simulation: Simulation) -> int:
+        """Return the steps to the next exchange."""
+
+    def meet(self, simulation: Simulation) -> bool:
+        """Exchange state and commands at a boundary; False: no answer yet, do not step."""
+
+    def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
+        """Take the sticks of a radio control, -1 to 1; CommandError where they do not fit."""
+
+    def status(self) -> BridgeStatus:
+        """Return what to show people."""
+
+    def close(self) -> None:
+        """Close the socket."""
+
+
+class CommandLog(Protocol):
+    """Keeps what the autopilot commands, so that the run can be repeated without it."""
+
+    def command(self, topic: str, data: bytes) -> None:
+        """Keep a command message, by its topic relative to the namespace."""
+
+    def event(self, **change: Any) -> None:
+        """Keep a change that no message made."""
+
+
+@dataclass
+class Surroundings:
+    """
+    What a bridge acts on besides the simulation.
+
+    Attributes
+    ----------
+    report
+        Takes (key, line): a fault, or what has come and gone; shown at most once per second.
+    reset
+        Puts the vehicle back to where it started: another autopilot process has begun.
+    log
+        Gets every command before it takes effect, or None.
+
+    """
+
+    report: Callable[[str, str], None] = lambda key, line: None
+    reset: Callable[[], object] = lambda: None
+    log: CommandLog | None = None
+
+
+class AutopilotPacing(Pacing):
+    """
+    Simulated time goes on when the autopilot has answered, and no faster than ``clock`` allows.
+
+    Parameters
+    ----------
+    bridge
+        The autopilot.
+    clock
+        ``Pacing`` (free) or ``RealTime``.
+
+    """
+
+    def __init__(self, bridge: Bridge, clock: Pacing) -> None:
+        self.bridge = bridge
+        self.clock = clock
+
+    def begin(self, simulation: Simulation) -> None:
+        """Start (again) from the simulation's present time."""
+        self.clock.begin(simulation)
+        self.bridge.begin(simulation)
+
+    def steps_left(self, simulation: Simulation) -> int:
+        """Return the steps to the next exchange, or to the next look at the clock."""
+        return min(self.clock.steps_left(simulation), self.bridge.steps_left(simulation))
+
+    def is_due(self, simulation: Simulation) -> bool:
+        """Wait for the boundary's wall time."""
+        return self.clock.is_due(simulation)
+
+    def meet(self, simulation: Simulation, source: Source) -> bool:
+        """Take in other commands, then those of the autopilot."""
+        source.poll(simulation)
+        if self.bridge.meet(simulation):
+            return True
+        self.clock.begin(simulation)  # the time that was waited is not to be caught up
+        return False
+
+
+class VehicleCommands:
+    """Commands of one vehicle by an autopilot: logged as messages, then applied."""
+
+    def __init__(self, simulation: Simulation, vehicle: str, surroundings: Surroundings) -> None:
+        target = simulation.vehicle(vehicle)
+        self._simulation = simulation
+        self._vehicle = vehicle
+        self._surroundings = surroundings
+        self._thrust = multi_array(len(target.thrusters))
+        self._joints = joint_command(target.joints)
+        self.saturated = 0
+
+    def set(self, thrusts: Sequence[float], joints: Sequence[float]) -> None:
+        """Command all thrusters [N], and all joints; an empty sequence leaves them as they are."""
+        simulation, name, log = self._simulation, self._vehicle, self._surroundings.log
+        if thrusts:
+            if log is not None:
+                struct.pack_into(f'<{len(thrusts)}d', self._thrust.blocks[0], 0, *thrusts)
+                log.command(f'{name}/cmd/thrust', self._thrust.bytes())
+            self.saturated += simulation.set_thrust(name, thrusts)
+        if joints:
+            if log is not None:
+                struct.pack_into(f'<{len(joints)}d', self._joints.blocks[0], 0, *joints)
+                log.command(f'{name}/cmd/joints', self._joints.bytes())
+            self.saturated += simulation.set_joints(name, joints)
+
+
+def open_bridge(
+    simulation: Simulation, options: AutopilotOptions, surroundings: Surroundings
+) -> Bridge:
+    """
+    Listen for an autopilot.
+
+    Raises
+    ------
+    MissingExtraError
+        If the extra ``mavlink`` is not installed.
+    ConfigError
+        If the mapping does not fit the vehicle, or the port is in use.
+
+    """
+    with needed_for('an autopilot'):
+        bridge: Bridge = import_module(_PART).open_bridge(simulation, options, surroundings)
+    return bridge

@@ -1,0 +1,1 @@
+"""The medium without a body: its density, wind and current, turbulence and waves."""

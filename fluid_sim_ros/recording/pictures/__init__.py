@@ -1,0 +1,1 @@
+"""Pictures of a log: plots, films and a page to read."""

@@ -1,0 +1,151 @@
+"""Pictures of a log: one PNG per vehicle."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+mpl.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
+
+Array = NDArray[np.float64]
+
+_STYLE: Any = {
+    'font.size': 9, 'axes.grid': True, 'grid.alpha': 0.3, 'axes.spines.top': False,
+    'axes.spines.right': False, 'figure.dpi': 110, 'legend.frameon': False,
+    'axes.titlesize': 10, 'axes.titleweight': 'bold', 'axes.titlelocation': 'left',
+}  # fmt: skip
+#: Distinguishable for colour-blind readers (Okabe and Ito 2008).
+_COLORS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#000000', '#999999')
+_AXES = ('east x', 'north y', 'up z')
+_EULER = ('roll', 'pitch', 'yaw')
+#: A term below this share of the largest is left out of the picture.
+_NOTABLE = 1e-6
+
+
+def overview(track: Track, tracks: Tracks, path: Path) -> Path:
+    """Draw path, position, attitude, wrench per term, commands and speed; return the file."""
+    with mpl.rc_context(_STYLE):
+        figure = plt.figure(figsize=(12, 9), layout='constrained')
+        grid: Any = figure.add_gridspec(3, 3)
+        _path(figure.add_subplot(grid[0, 0], projection='3d'), [track])
+        position = figure.add_subplot(grid[0, 1])
+        _lines(position, track.times, track.position_w, _AXES, 'position [m]')
+        attitude = figure.add_subplot(grid[0, 2])
+        _lines(attitude, track.times, np.degrees(track.euler), _EULER, 'attitude [deg]')
+        _terms(figure.add_subplot(grid[1, 0]), track, slice(1, 4), 'fluid force by term [N]')
+        _terms(figure.add_subplot(grid[1, 1]), track, slice(4, 7), 'fluid torque by term [N m]')
+        velocity = figure.add_subplot(grid[1, 2])
+        names = ('forward x', 'left y', 'up z')
+        _lines(velocity, track.times, track.velocity_b, names, 'velocity, body axes [m/s]')
+        _commands(figure.add_subplot(grid[2, :2]), track)
+        _speed(figure.add_subplot(grid[2, 2]), tracks.real_time_factor)
+        for axes in figure.axes[1:]:
+            axes.set_xlabel('simulated time [s]')
+        figure.suptitle(track.name, fontweight='bold')
+        return _save(figure, path)
+
+
+def both_flights(recorded: Track, changed: Track, change: str, path: Path) -> Path:
+    """Draw a recorded flight and the same one with a change; return the file."""
+    with mpl.rc_context(_STYLE):
+        figure = plt.figure(figsize=(12, 7), layout='constrained')
+        grid: Any = figure.add_gridspec(3, 3)
+        _path(figure.add_subplot(grid[:, 0], projection='3d'), [recorded, changed])
+        groups = (
+            ('position [m]', _AXES, recorded.position_w, changed.position_w),
+            ('attitude [deg]', _EULER, np.degrees(recorded.euler), np.degrees(changed.euler)),
+        )
+        for column, (title, names, old, new) in enumerate(groups, 1):
+            for row, name in enumerate(names):
+                axes = figure.add_subplot(grid[row, column])
+                axes.plot(recorded.times, old[:, row], color=_COLORS[0], label='recorded')
+                axes.plot(changed.times, new[:, row], color=_COLORS[1], ls='--', label=change)
+                axes.set_title(f'{name}, {title}')
+        figure.axes[1].legend()
+        for axes in figure.axes[1:]:
+            axes.set_xlabel('simulated time [s]')
+        figure.suptitle(f'{recorded.name}: as recorded, and with {change}', fontweight='bold')
+        return _save(figure, path)
+
+
+def _save(figure: Figure, path: Path) -> Path:
+    figure.savefig(path)
+    plt.close(figure)
+    return path
+
+
+def _path(axes: Any, tracks: list[Track]) -> None:
+    labels = ('recorded', 'changed') if len(tracks) > 1 else ('',)
+    for track, color, label in zip(tracks, _COLORS, labels, strict=False):
+        x, y, z = track.position_w.T
+        axes.plot(x, y, z, color=color, label=label)
+        axes.scatter(x[:1], y[:1], z[:1], color=color, marker='o')
+    axes.set_title('path (dot: begin) [m]')
+    axes.set_xlabel('east x')
+    axes.set_ylabel('north y')
+    axes.set_zlabel('up z', labelpad=8)
+    axes.locator_params(nbins=4)
+    points = np.concatenate([track.position_w for track in tracks])
+    middle = (points.max(axis=0) + points.min(axis=0)) / 2
+    half = max(float(np.ptp(points, axis=0).max()) / 2, 0.1)
+    limits = zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), middle, strict=True)
+    for set_limit, centre in limits:
+        set_limit(centre - half, centre + half)
+    axes.set_box_aspect((1, 1, 1), zoom=0.85)
+
+
+def _lines(axes: Axes, times: Array, values: Array, names: Any, title: str) -> None:
+    for i, name in enumerate(names):
+        axes.plot(times, values[:, i], color=_COLORS[i], label=name)
+    axes.set_title(title)
+    axes.legend(ncols=3, fontsize=8)
+
+
+def _terms(axes: Axes, track: Track, part: slice, title: str) -> None:
+    """Draw the size of each term's force or torque."""
+    sizes = {
+        term: np.linalg.norm(rows[:, part], axis=1)
+        for term, rows in track.wrenches.items() if term != 'thrust'
+    }  # fmt: skip
+    largest = max((float(size.max()) for size in sizes.values()), default=0.0)
+    axes.set_title(title)
+    shown = [term for term, size in sizes.items() if size.max() > _NOTABLE * largest]
+    for i, term in enumerate(sorted(shown, key=lambda term: term != 'total')):
+        color = '#000000' if term == 'total' else _COLORS[(i - 1) % len(_COLORS)]
+        width = 1.8 if term == 'total' else 1.0
+        times = track.wrenches[term][:, 0]
+        axes.plot(times, sizes[term], color=color, lw=width, label=term)
+    if shown:
+        axes.legend(ncols=2, fontsize=8)
+    else:
+        axes.text(0.5, 0.5, 'none recorded', ha='center', transform=axes.transAxes)
+
+
+def _commands(axes: Axes, track: Track) -> None:
+    axes.set_title('commands')
+    count = 0
+    for name, rows in track.commands.items():
+        for i in range(1, rows.shape[1]):
+            color = _COLORS[count % len(_COLORS)]
+            axes.step(
+                rows[:, 0], rows[:, i], where='post', color=color, lw=1.0,
+                label=f'{name} {i}',
+            )  # fmt: skip
+            count += 1
+    if count:
+        axes.legend(ncols=4, fontsize=8)
+    else:
+        axes.text(0.5, 0.5, 'none', ha='center', transform=axes.transAxes)
+
+
+def _speed(axes: Axes, factor: Array) -> None:
+    axes.plot(factor[:, 0], factor[:, 1], color=_COLORS[0])
+    axes.set_title('real-time factor of the recording')
+    axes.set_ylim(bottom=0)

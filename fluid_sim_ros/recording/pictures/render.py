@@ -1,0 +1,259 @@
+"""A log as a film: MuJoCo's renderer on the recorded poses, with force arrows."""
+
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.recording.decode import columns
+from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
+from fluid_sim_ros.recording.pictures.tracks import Track, read_tracks
+from fluid_sim_ros.recording.pictures.water import add_waves
+from fluid_sim_ros.scene.vehicle import weight_in_air
+from fluid_sim_ros.simulation import Simulation
+
+Array = NDArray[np.float64]
+
+#: Arrow per recorded wrench: colour (red, green, blue, opacity); the same as the node's markers.
+_ARROWS = {'total': (0.1, 0.5, 0.9, 1.0), 'thrust': (0.9, 0.5, 0.1, 1.0)}
+#: A force equal to the weight is drawn this long, in extents of the vehicle.
+_LENGTH = 2.0
+_WIDTH = 0.04
+#: The camera that follows stands this many extents of the vehicle away.
+_DISTANCE = 4.0
+
+
+@dataclass(frozen=True)
+class FilmOptions:
+    """
+    How to render.
+
+    Attributes
+    ----------
+    width, height
+        [pixels].
+    rate, speed
+        Pictures per second of the film, and simulated seconds per second of it.
+    vehicle, camera
+        That is followed, and a camera of the model; empty: chosen.
+    at
+        Simulated time of a still [s]; None: the end.
+
+    """
+
+    width: int = 640
+    height: int = 480
+    rate: float = 30.0
+    speed: float = 1.0
+    vehicle: str = ''
+    camera: str = ''
+    at: float | None = None
+
+    def __post_init__(self) -> None:
+        if not (self.rate > 0 and self.speed > 0 and self.width > 0 and self.height > 0):
+            raise ConfigError('render: size, frames per second and speed must be above 0')
+
+
+def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float], None]) -> int:
+    """
+    Render a log to .mp4, .gif, or its last picture to .png; return the number of pictures.
+
+    Parameters
+    ----------
+    log, out, options
+        What, where to, and how.
+    progress
+        Called with the share that is done.
+
+    Raises
+    ------
+    ConfigError, LogError
+        For another kind of file, or a log without odometry.
+
+    """
+    if out.suffix not in KINDS:
+        raise ConfigError(f"render: '{out.suffix}' is not known; allowed: {listed(KINDS)}")
+    with tempfile.TemporaryDirectory() as folder:
+        stage = _Stage(log, Path(folder), options)
+        times = stage.frame_times()
+        if out.suffix == '.png':
+            times = times[-1:] if options.at is None else stage.time_of_still(options.at)
+        file = film_file(out, options.width, options.height, options.rate)
+        try:
+            for number, time in enumerate(times, 1):
+                file.add(stage.picture(time))
+                progress(number / len(times))
+        finally:
+            file.close()
+            stage.close()
+    return len(times)
+
+
+class _Stage:
+    """The model, posed as the log has it."""
+
+    def __init__(self, log: Log, folder: Path, options: FilmOptions) -> None:
+        run = log.description().run
+        self._options = options
+        self._simulation = Simulation(log.description().scene(folder), seed=run['seed'])
+        self._data = self._simulation.data
+        self._model = model = self._simulation.model
+        model.vis.global_.offwidth = max(model.vis.global_.offwidth, options.width)
+        model.vis.global_.offheight = max(model.vis.global_.offheight, options.height)
+        prefix = run['namespace'].strip('/')
+        self._tracks = {
+            track.name.removeprefix(prefix).strip('/'): track
+            for track in read_tracks(log).vehicles
+        }
+        name = options.vehicle or next(iter(self._tracks))
+        if name not in self._tracks:
+            raise LogError(f"{log.path}: no vehicle '{name}'; it has: {', '.join(self._tracks)}")
+        self._followed = self._simulation.vehicles[name].body_id
+        self._extent = _extent(model, self._followed)
+        self._joints = {name: _joint_states(log, track) for name, track in self._tracks.items()}
+        self._camera = self._choose_camera()
+        try:
+            self._renderer = mujoco.Renderer(model, options.height, options.width)
+        except (mujoco.FatalError, RuntimeError) as error:
+            raise ConfigError(
+                f'render: no picture of {options.width} x {options.height} pixels can be drawn '
+                f'here: {error}'
+            ) from None
+
+    def frame_times(self) -> Array:
+        """Return the simulated times of the pictures [s]."""
+        times = next(iter(self._tracks.values())).times
+        step = self._options.speed / self._options.rate
+        return np.arange(times[0], times[-1] + step / 2, step)
+
+    def time_of_still(self, time: float) -> Array:
+        """Return the time of a still [s], which must be one of the log's."""
+        times = next(iter(self._tracks.values())).times
+        if not times[0] <= time <= times[-1]:
+            raise ConfigError(
+                f'render: {time:g} s is not in the log, which has {times[0]:g} to {times[-1]:g} s'
+            )
+        return np.array([time])
+
+    def picture(self, time: float) -> Picture:
+        """Return the picture at a simulated time [s]."""
+        for name, track in self._tracks.items():
+            self._pose(name, track, time)
+        self._data.time = time
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        mujoco.mj_camlight(self._model, self._data)
+        self._renderer.update_scene(self._data, self._camera)
+        for name, track in self._tracks.items():
+            self._add_arrows(name, track, time)
+        center = self._data.xpos[self._followed]
+        add_waves(self._renderer.scene, self._model, self._data, center, self._extent)
+        picture: Picture = self._renderer.render()
+        return picture
+
+    def close(self) -> None:
+        self._renderer.close()
+
+    def _pose(self, name: str, track: Track, time: float) -> None:
+        vehicle = self._simulation.vehicles[name]
+        at = vehicle.qpos_address
+        i = _latest(track.times, time)
+        if at >= 0:
+            self._data.qpos[at : at + 3] = track.position_w[i]
+            self._data.qpos[at + 3 : at + 7] = track.quat_wb_wxyz[i]
+        for joint, (times, positions) in self._joints[name].items():
+            address = self._model.joint(joint).qposadr[0]
+            self._data.qpos[address] = positions[_latest(times, time)]
+
+    def _choose_camera(self) -> Any:
+        """Return the camera asked for, the model's own that tracks the vehicle, or one of ours."""
+        model = self._model
+        names = [model.camera(i).name for i in range(model.ncam)]
+        if self._options.camera:
+            if self._options.camera not in names:
+                raise ConfigError(
+                    f"render: camera '{self._options.camera}' is not in the model; it has: "
+                    f'{", ".join(names) or "(none)"}'
+                )
+            return self._options.camera
+        for i in range(model.ncam):
+            tracking = (
+                mujoco.mjtCamLight.mjCAMLIGHT_TRACK,
+                mujoco.mjtCamLight.mjCAMLIGHT_TRACKCOM,
+            )
+            if model.cam_mode[i] in tracking and model.cam_bodyid[i] == self._followed:
+                return names[i] or i
+        camera = mujoco.MjvCamera()
+        camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
+        camera.trackbodyid = self._followed
+        camera.distance = _DISTANCE * self._extent
+        camera.azimuth, camera.elevation = 120.0, -20.0
+        return camera
+
+    def _add_arrows(self, name: str, track: Track, time: float) -> None:
+        body = self._simulation.vehicles[name].body_id
+        weight = weight_in_air(self._model, body)
+        scene = self._renderer.scene
+        rotation = self._data.xmat[body].reshape(3, 3)
+        start = self._data.xpos[body].copy()
+        for term, colour in _ARROWS.items():
+            rows = track.wrenches.get(term)
+            if rows is None or scene.ngeom >= scene.maxgeom:
+                continue
+            force_w = rotation @ rows[_latest(rows[:, 0], time), 1:4]
+            along = force_w / weight * _LENGTH * self._extent
+            if np.linalg.norm(along) < 1e-3 * self._extent:
+                continue
+            arrow = scene.geoms[scene.ngeom]
+            mujoco.mjv_initGeom(
+                arrow, mujoco.mjtGeom.mjGEOM_ARROW, np.zeros(3), np.zeros(3), np.zeros(9),
+                np.array(colour, dtype=np.float32),
+            )  # fmt: skip
+            mujoco.mjv_connector(
+                arrow, mujoco.mjtGeom.mjGEOM_ARROW, _WIDTH * self._extent, start, start + along
+            )
+            scene.ngeom += 1
+
+
+def _latest(times: Array, time: float) -> int:
+    """Return the row of the last time that is not after ``time``."""
+    return max(0, int(np.searchsorted(times, time + 1e-9)) - 1)
+
+
+def _extent(model: mujoco.MjModel, base: int) -> float:
+    """Return how far a vehicle's geoms reach from its origin [m]."""
+    reach = 0.0
+    for geom in range(model.ngeom):
+        body = int(model.geom_bodyid[geom])
+        offset = float(np.linalg.norm(model.geom_pos[geom]))
+        while body > base:
+            offset += float(np.linalg.norm(model.body_pos[body]))
+            body = int(model.body_parentid[body])
+        if body == base:
+            reach = max(reach, offset + min(float(model.geom_rbound[geom]), 1e3))
+    return reach or 0.1
+
+
+def _joint_states(log: Log, track: Track) -> dict[str, tuple[Array, Array]]:
+    """Return times [s] and positions of each joint of a vehicle that the log has."""
+    topic = next((t for t in log.topics.values() if t.name == f'/{track.name}/joint_states'), None)
+    if topic is None:
+        return {}
+    messages = list(log.messages([topic.name]))
+    if not messages:
+        return {}
+    table = columns(topic.definition, [m.data for m in messages])
+    times = np.array([m.log_ns for m in messages]) * 1e-9
+    found = {}
+    for i in range(sum(name.startswith('name[') for name in table)):
+        joint = str(table[f'name[{i}]'][0])
+        found[joint] = (times, table[f'position[{i}]'])
+    return {name: pair for name, pair in found.items() if np.any(pair[1])}

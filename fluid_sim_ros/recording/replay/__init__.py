@@ -1,0 +1,1 @@
+"""Running a log's flight again: the same to the bit, or with a change."""

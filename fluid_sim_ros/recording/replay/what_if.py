@@ -1,0 +1,49 @@
+"""A recorded flight beside the same one with a change."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.recording.pictures import plots as pictures
+from fluid_sim_ros.recording.pictures.tracks import track_of
+from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
+
+_ODOMETRY = '/odom'
+
+
+def compare_flights(log: Log, changes: Sequence[str], out: Path) -> dict[str, Any]:
+    """
+    Fly a log with a change, draw both flights, return how far apart they are.
+
+    Raises
+    ------
+    ConfigError, LogError
+        For a wrong change, or a log without odometry or commands.
+
+    """
+    outcome = resimulate(log, changes=parse_changes(changes), keep=(_ODOMETRY,))
+    if not outcome.pairs:
+        raise LogError(f'{log.path}: no odometry in it, nothing to compare')
+    differences, files = {}, []
+    for number, (topic, pairs) in enumerate(outcome.pairs.items()):
+        name, definition = topic.strip('/').removesuffix(_ODOMETRY), log.topic(topic).definition
+        times = np.array([time_ns for time_ns, _, _ in pairs]) * 1e-9
+        recorded = track_of(name, times, definition, [old for _, old, _ in pairs])
+        changed = track_of(name, times, definition, [new for _, _, new in pairs])
+        path = out.with_stem(f'{out.stem}_{number}') if number else out
+        files.append(str(pictures.both_flights(recorded, changed, ', '.join(changes), path)))
+        apart = np.linalg.norm(changed.position_w - recorded.position_w, axis=1)
+        largest = int(apart.argmax())
+        differences[name] = {
+            'largest_apart_m': float(apart[largest]),
+            'largest_apart_at_s': float(times[largest]),
+            'apart_at_end_m': float(apart[-1]),
+        }
+    return {
+        'log': str(log.path), 'changes': list(changes), 'differences': differences,
+        'notes': outcome.notes, 'plots': files,
+    }  # fmt: skip

@@ -1,0 +1,1 @@
+"""Example controllers: nodes that close a loop over topics."""

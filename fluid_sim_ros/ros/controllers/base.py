@@ -1,0 +1,260 @@
+"""
+What the example controllers share: odometry in, commands out, one answer to each state.
+
+The main thread waits on the subscriptions itself and takes them raw, which answers a state in a
+fraction of the time of an executor's spin; a second thread runs the executor for the parameter
+services. The answer carries the stamp of the odometry, so the simulator can tell in lockstep
+which state it belongs to.
+"""
+
+import math
+import struct
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from geometry_msgs.msg import PoseStamped
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import JointState
+
+from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.gains import Gains
+from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.messages.templates import StampBytes, Template
+from fluid_sim_ros.ros.controllers import parameters as parameters
+from fluid_sim_ros.ros.parameter_table import Table, declare, judge
+from fluid_sim_ros.ros.polled_group import PolledGroup
+from fluid_sim_ros.ros.state_source import StateSource
+from fluid_sim_ros.ros.states import State
+from fluid_sim_ros.simulation.plant import plant_of
+
+#: Longest wait before signals are looked at again [ns].
+_WAIT_NS = 50_000_000
+_RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+#: Members of sensor_msgs/JointState after its header.
+_LISTS = ('name', 'position', 'velocity', 'effort')
+
+
+class Answer(NamedTuple):
+    """
+    The commands that answer a state.
+
+    Attributes
+    ----------
+    thrusts
+        [N], one per thruster.
+    joints
+        One per joint actuator, in its own unit; empty for a vehicle without.
+
+    """
+
+    thrusts: Sequence[float]
+    joints: Sequence[float] = ()
+
+
+def command_template(member: str, count: int) -> Template:
+    """Return sensor_msgs/JointState with one block: its list ``member``; the others are empty."""
+    template = Template().string('')
+    for name in _LISTS:
+        template.uint32(count if name == member else 0)
+        if name == member:
+            template.doubles(count)
+    return template.finish()
+
+
+class _Commands:
+    """Publishes commands as one list of a JointState, with a stamp."""
+
+    def __init__(self, node: Node, topic: str, member: str, count: int) -> None:
+        self._template = command_template(member, count)
+        self._pack = struct.Struct(f'<{count}d').pack_into
+        self._publisher = node.create_publisher(JointState, topic, _RELIABLE)
+
+    def publish(self, stamp: memoryview, values: Sequence[float]) -> None:
+        """Send the values as the answer to the state of a stamp."""
+        self._template.stamps[0][:] = stamp
+        self._pack(self._template.blocks[0], 0, *values)
+        self._publisher.handle.publish_raw(self._template.bytes())
+
+
+class ControllerNode(Node, ABC):
+    """
+    A controller of one vehicle.
+
+    Subscribes ``<vehicle>/odom`` and ``<vehicle>/cmd/waypoint`` (geometry_msgs/PoseStamped, frame
+    ``map`` or ``<vehicle>/odom``), publishes ``<vehicle>/cmd/thrust_stamped`` and, for a vehicle
+    with joint actuators, ``<vehicle>/cmd/joints``, both with the stamp of the odometry.
+
+    Parameters
+    ----------
+    name
+        Node name.
+    scene
+        Default of the parameter ``scene``.
+    gains
+        Class of the gains; each of its fields becomes a parameter ``gains.<field>``.
+    own
+        Parameters of this controller beside the common ones, or in their place.
+    medium
+        ``wind`` or ``current`` to have its velocity at the vehicle in each state (`StateSource`).
+
+    Raises
+    ------
+    ConfigError
+        If a parameter, the scene or the vehicle is wrong.
+
+    """
+
+    #: Heading error at which a waypoint counts as reached [rad].
+    turn = 0.2
+
+    def __init__(
+        self,
+        name: str,
+        scene: str,
+        gains: type[Gains],
+        own: Table | None = None,
+        medium: str = '',
+    ) -> None:
+        super().__init__(name)
+        self._table = parameters.table_of(gains, own or {})
+        declare(self, self._table)
+        self.add_on_set_parameters_callback(self._judge)
+        self.add_post_set_parameters_callback(self._take)
+        scene = self.get_parameter('scene').value or scene
+        self.plant, self.vehicle = plant_of(scene, self.get_parameter('vehicle').value)
+        self.plan = WaypointPlan(
+            from_flat(self.get_parameter('waypoints').value),
+            radius=parameters.number(self, 'waypoint_radius'),
+            turn=self.turn,
+        )
+        self.read_live()
+        self._create_topics(medium)
+        self._ending = False
+        self._last_stamp_ns = -1
+        self._stamp = StampBytes()
+
+    def _create_topics(self, medium: str) -> None:
+        vehicle, name = self.vehicle, self.vehicle.name
+        self._frames = ('', 'map', f'{name}/odom')
+        self._states = StateSource(self, name, medium)
+        self._waypoint = self.create_subscription(
+            PoseStamped, f'{name}/cmd/waypoint', lambda _: None,
+            QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE),
+            callback_group=PolledGroup(), raw=True,
+        )  # fmt: skip
+        self._thrusts = _Commands(
+            self, f'{name}/cmd/thrust_stamped', 'effort', len(vehicle.thrusters)
+        )
+        self._joints = None
+        if vehicle.joints:
+            self._joints = _Commands(self, f'{name}/cmd/joints', 'position', len(vehicle.joints))
+
+    def order_of_joints(self, commanded: Sequence[str]) -> list[int]:
+        """
+        Return where each joint actuator of the vehicle stands among those that a law commands.
+
+        Raises
+        ------
+        ConfigError
+            If the vehicle has others.
+
+        """
+        joints = self.vehicle.joints
+        if set(joints) != set(commanded):
+            raise ConfigError(
+                f"vehicle '{self.vehicle.name}' has the joint actuators: {listed(joints)}; this "
+                f'controller needs: {listed(commanded)}'
+            )
+        return [commanded.index(name) for name in joints]
+
+    # ---- what a controller adds --------------------------------------------------------------
+
+    @abstractmethod
+    def answer(self, time: float, state: State) -> Answer:
+        """Return the commands that answer a state; ``time`` is its stamp [s]."""
+
+    @abstractmethod
+    def restart(self) -> None:
+        """Forget targets taken from states: the simulation was reset."""
+
+    def read_live(self) -> None:
+        """Read the parameters that may change at run time; called at the start and after."""
+
+    # ---- the loop ----------------------------------------------------------------------------
+
+    def run(self) -> None:
+        """Answer states until ``end``."""
+        self.get_logger().info(
+            f"vehicle '{self.vehicle.name}': {self.plant.mass:.2f} kg, "
+            f'{len(self.vehicle.thrusters)} thrusters; waiting for {self._states.topic}'
+        )
+        waypoint = self._waypoint.handle
+        handles = [*self._states.handles, waypoint]
+        wait_set = _rclpy.WaitSet(len(handles), 0, 0, 0, 0, 0, self.context.handle)
+        while not self._ending:
+            wait_set.clear_entities()
+            for handle in handles:
+                wait_set.add_subscription(handle)
+            wait_set.wait(_WAIT_NS)
+            # every state is answered, in order, so that the same states get the same answers
+            for state in self._states.take():
+                self._on_state(state)
+            if got := waypoint.take_message(PoseStamped, True):
+                self._on_waypoint(got[0])
+
+    def close(self) -> None:
+        """Do nothing: a controller holds nothing that must be closed."""
+
+    def end(self) -> None:
+        """Have ``run`` return; safe in a signal handler and in any thread."""
+        self._ending = True
+
+    def _on_state(self, state: State) -> None:
+        if not state.is_sound():
+            # one such number would stay in the controller's integrators for ever
+            self.get_logger().error(
+                'the odometry holds numbers that are not finite, or no attitude: not answered',
+                throttle_duration_sec=1.0,
+            )
+            return
+        if state.stamp_ns < self._last_stamp_ns:
+            self.plan.restart()
+            self.restart()
+            self.get_logger().info('time went back: starting anew')
+        self._last_stamp_ns = state.stamp_ns
+        thrusts, joints = self.answer(state.stamp_ns * 1e-9, state)
+        self._stamp.set(state.stamp_ns)
+        if self._joints is not None:
+            self._joints.publish(self._stamp.view, joints)
+        self._thrusts.publish(self._stamp.view, thrusts)
+
+    def _on_waypoint(self, data: bytes) -> None:
+        message = deserialize_message(data, PoseStamped)
+        position, q = message.pose.position, message.pose.orientation
+        quat = (q.w, q.x, q.y, q.z)
+        place = (position.x, position.y, position.z)
+        if message.header.frame_id not in self._frames:
+            fault = f"frame '{message.header.frame_id}' is not known; allowed: map"
+        elif not all(map(math.isfinite, (*place, *quat))) or not any(quat):
+            fault = 'position and orientation must be finite, the quaternion not zero'
+        else:
+            yaw = rot.yaw_of(rot.from_quaternion(quat))
+            self.plan.go_to(Waypoint(place, yaw))
+            return
+        self.get_logger().error(f'waypoint rejected: {fault}')
+
+    # ---- parameters (executor thread) ----------------------------------------------------------
+
+    def _judge(self, changes: list[Parameter]) -> SetParametersResult:
+        return judge(self._table, changes, fixed='the controller runs')
+
+    def _take(self, changes: list[Parameter]) -> None:
+        if any(change.name in self._table for change in changes):
+            self.read_live()

@@ -1,0 +1,93 @@
+"""``plane_controller``: holds altitude, heading and airspeed with a fixed-wing aircraft."""
+
+import math
+import sys
+from collections.abc import Sequence
+
+from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.fixed_wing import (
+    FixedWingCommand,
+    FixedWingController,
+    FixedWingGains,
+)
+from fluid_sim_ros.ros.controllers import parameters as parameters
+from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
+from fluid_sim_ros.ros.controllers.parameters import HEADING, OF_FIRST
+from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.states import State
+
+NODE_NAME = 'plane_controller'
+DEFAULT_SCENE = 'aerosonde'
+#: Joint actuators that the law commands, in any order.
+SURFACES = FixedWingCommand._fields[1:]
+
+OWN = {
+    'altitude': Declared(
+        math.nan, f'[m] altitude to hold, above z = 0; {OF_FIRST}', live=True, may_be_nan=True
+    ),
+    'heading': HEADING,
+    'airspeed': Declared(25.0, '[m/s] airspeed to hold', low=0, live=True),
+    'waypoints': Declared(
+        [], '[m, m, m, rad, s] x, y, z, course, hold of each waypoint, one after another; flown '
+        'on the line through it over ground with this course; empty = hold altitude and heading'
+    ),
+    'waypoint_radius': Declared(30.0, '[m] distance at which a waypoint counts as reached', low=0),
+}  # fmt: skip
+
+
+class PlaneController(ControllerNode):
+    """
+    Answers odometry with thrust and surfaces of a `FixedWingController`.
+
+    Airspeed is that of odometry less ``<vehicle>/medium/wind``, as ideal air data: the simulator's
+    ``medium.rate`` has to be its ``odom.rate``.
+    """
+
+    turn = math.pi  # it passes a waypoint on whatever course
+
+    def __init__(self) -> None:
+        super().__init__(NODE_NAME, DEFAULT_SCENE, FixedWingGains, OWN, medium='wind')
+        self._order = self.order_of_joints(SURFACES)
+        self._law = FixedWingController(
+            self.plant, float(abs(self.vehicle.joint_range).min()),
+            parameters.gains(self, FixedWingGains),
+        )  # fmt: skip
+        self._first: tuple[float, float] | None = None
+
+    def read_live(self) -> None:
+        """Read altitude, heading and airspeed."""
+        names = ('altitude', 'heading', 'airspeed')
+        # one assignment, so that the loop in the other thread never sees half of a change
+        self._wanted = tuple(parameters.number(self, name) for name in names)
+
+    def restart(self) -> None:
+        """Take the altitude and heading to hold from the next state."""
+        self._first = None
+
+    def answer(self, time: float, state: State) -> Answer:
+        """Return thrust [N] and deflections [rad] that hold what is wanted."""
+        r_wb = rot.from_quaternion(state.quat_wb_wxyz)
+        if self._first is None:
+            self._first = (state.position_w[2], rot.yaw_of(r_wb))
+        altitude, heading, airspeed = self._wanted
+        altitude = self._first[0] if math.isnan(altitude) else altitude
+        heading = self._first[1] if math.isnan(heading) else heading
+        line = None
+        waypoint = self.plan.target(time, state.position_w, rot.yaw_of(r_wb))
+        if waypoint is not None:
+            line, altitude, heading = waypoint.position_w, waypoint.position_w[2], waypoint.yaw
+        thrust, *surfaces = self._law.step(
+            time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
+            state.medium_w, altitude, heading, airspeed, line_w=line,
+        )  # fmt: skip
+        return Answer([thrust], [surfaces[i] for i in self._order])
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run the controller; returns the process's exit code."""
+    return run_process(NODE_NAME, PlaneController, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

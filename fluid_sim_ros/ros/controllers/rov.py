@@ -1,0 +1,75 @@
+"""``rov_controller``: holds depth, heading and a level attitude with an underwater vehicle."""
+
+import math
+import sys
+from collections.abc import Sequence
+
+from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
+from fluid_sim_ros.ros.controllers import parameters as parameters
+from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
+from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
+from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.states import State
+
+NODE_NAME = 'rov_controller'
+DEFAULT_SCENE = 'rov'
+
+OWN = {
+    'depth': DEPTH,
+    'heading': HEADING,
+    'surge': Declared(
+        0.0, '[m/s] speed over ground along the heading, without a waypoint', live=True
+    ),
+    'sway': Declared(
+        0.0, '[m/s] speed over ground to the left of the heading, without a waypoint', live=True
+    ),
+}  # fmt: skip
+
+
+class RovController(ControllerNode):
+    """Answers odometry with the thrusts of an `UnderwaterController`."""
+
+    def __init__(self) -> None:
+        super().__init__(NODE_NAME, DEFAULT_SCENE, UnderwaterGains, OWN)
+        self._law = UnderwaterController(self.plant, parameters.gains(self, UnderwaterGains))
+        self._first: tuple[float, float] | None = None
+
+    def read_live(self) -> None:
+        """Read depth, heading and speeds."""
+        names = ('depth', 'heading', 'surge', 'sway')
+        # one assignment, so that the loop in the other thread never sees half of a change
+        self._wanted = tuple(parameters.number(self, name) for name in names)
+
+    def restart(self) -> None:
+        """Take the depth and heading to hold from the next state."""
+        self._first = None
+
+    def answer(self, time: float, state: State) -> Answer:
+        """Return the thrusts [N] that hold what is wanted."""
+        yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
+        if self._first is None:
+            self._first = (-state.position_w[2], yaw)
+        depth, heading, surge, sway = self._wanted
+        depth = self._first[0] if math.isnan(depth) else depth
+        heading = self._first[1] if math.isnan(heading) else heading
+        place = None
+        waypoint = self.plan.target(time, state.position_w, yaw)
+        if waypoint is not None:
+            place = waypoint.position_w[:2]
+            depth, heading = -waypoint.position_w[2], waypoint.yaw
+        thrusts = self._law.step(
+            time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
+            depth, heading, speed_h=(surge, sway), place_w=place,
+        )  # fmt: skip
+        return Answer(thrusts)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run the controller; returns the process's exit code."""
+    return run_process(NODE_NAME, RovController, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,5 @@
+"""A scene: its model, vehicles, weather and schedule, read from files and compiled."""
+
+from fluid_sim_ros.scene.scene import Scene, scene_names
+
+__all__ = ['Scene', 'scene_names']

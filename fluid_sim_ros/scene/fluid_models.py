@@ -1,0 +1,106 @@
+"""The ladder of fluid models, from a scene's own plugins down to nothing."""
+
+from pathlib import Path
+
+import mujoco
+
+from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.plugins.messages import load_error_line
+from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.schema.settings import FLUID_RUNGS
+
+#: Passive plugins that stand on a body.
+_ON_BODIES = ('fluid_sim.body', 'fluid_sim.foil')
+
+
+def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
+    """Return the model of a spec; a ModelError is one line that names the file."""
+    try:
+        return spec.compile()
+    except ValueError as error:
+        raise ModelError(f'{path}: {load_error_line(error)}') from None
+
+
+def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
+    """
+    Put the model on one rung of the ladder.
+
+    No fluid, inertia boxes, or stock ellipsoids: what plugins add (buoyancy, added mass, damping,
+    a medium) is taken away with them; a body that they kept afloat gets gravcomp instead, so that
+    a scene stays what it is. ``no_added_mass``: all that the scene has, but without the inertia of
+    the added mass.
+    """
+    if fluid not in FLUID_RUNGS:
+        raise ConfigError(f"fluid '{fluid}' is not known; allowed: {listed(FLUID_RUNGS)}")
+    if fluid == 'no_added_mass':
+        _take_added_mass_away(spec, path)
+        return
+    _take_plugins_away(spec, path)
+    if fluid == 'none':
+        spec.option.density = 0.0
+        spec.option.viscosity = 0.0
+        return
+    if spec.option.density <= 0 and spec.option.viscosity <= 0:
+        raise ConfigError(
+            f"fluid '{fluid}': {path} sets neither density nor viscosity, in <option> or in "
+            'fluid_sim.medium; set one'
+        )
+    if fluid == 'inertia':
+        for geom in spec.geoms:
+            geom.fluid_ellipsoid = 0.0
+    elif not any(geom.fluid_ellipsoid > 0 for geom in spec.geoms):
+        # visual geoms (no contact) stay dry, as a model's author would have it
+        for geom in spec.geoms:
+            if geom.parent.name != 'world' and (geom.contype or geom.conaffinity):
+                geom.fluid_ellipsoid = 1.0
+
+
+def has_body_plugins(spec: mujoco.MjSpec) -> bool:
+    """Return whether bodies have fluid forces by our plugins."""
+    names = {plugin.plugin_name for plugin in spec.plugins}
+    names |= {body.plugin.plugin_name for body in spec.bodies if body.plugin.active}
+    return not names.isdisjoint(_ON_BODIES)
+
+
+def _take_added_mass_away(spec: mujoco.MjSpec, path: Path) -> None:
+    """Set every stated added mass to zero; refuse a model that states none."""
+    stated = [plugin for plugin in spec.plugins if 'added_mass' in plugin.config]
+    if not stated:
+        raise ConfigError(f"fluid 'no_added_mass': {path} states no added_mass to leave out")
+    for plugin in stated:
+        plugin.config = {**plugin.config, 'added_mass': '0 0 0 0 0 0'}
+
+
+def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
+    """
+    Remove what models a fluid; opt takes over the medium's lower fluid.
+
+    A fluid_sim.thruster stays: it is the vehicle's drive (one that goes with the density of the
+    fluid gives nothing where there is none).
+    """
+    full = compile_spec(spec, path)
+    config = native().plugin_config
+    implicit = []
+    for instance in range(full.nplugin):
+        for key in ('density', 'viscosity'):
+            value = config(full._address, instance, 'fluid_sim.medium', key)
+            if value:
+                setattr(spec.option, key, float(value))
+    ours = {plugin.name for plugin in spec.plugins if plugin.plugin_name in _ON_BODIES}
+    for body in spec.bodies:
+        reference = body.plugin
+        if reference.active and (
+            reference.plugin_name in _ON_BODIES or reference.name in ours - {''}
+        ):
+            instance = full.body_plugin[full.body(body.name).id]
+            if config(full._address, instance, 'fluid_sim.body', 'volume'):
+                body.gravcomp = 1.0
+            if reference.id >= 0:  # configured on the body itself, not a named instance
+                implicit.append(reference.id)
+            reference.name = ''
+            reference.active = False
+    for number, plugin in enumerate(list(spec.plugins)):
+        name = plugin.plugin_name
+        fluid = name.startswith('fluid_sim.') and name != 'fluid_sim.thruster'
+        if number in implicit or fluid:
+            spec.delete(plugin)

@@ -1,0 +1,81 @@
+"""Joint waves of a scene: what its swimmers and wings do until somebody commands their joints."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.control.gait import JointWave
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.scene.vehicle import Vehicle
+from fluid_sim_ros.schema.scene import Gait
+from fluid_sim_ros.step_clock import NEVER, exact
+
+
+class GaitCycle:
+    """One vehicle's wave, evaluated every ``period`` steps and held in between."""
+
+    def __init__(self, gait: Gait, vehicle: Vehicle, timestep: float) -> None:
+        where = f"gait of '{vehicle.name}'"
+        if len(gait.amplitudes) != len(vehicle.joints):
+            raise ConfigError(
+                f'{where}: has {len(gait.amplitudes)} amplitudes; it needs one for each of: '
+                f'{listed(vehicle.joints)}'
+            )
+        steps = 1 / (exact(gait.rate) * exact(timestep))
+        if steps.denominator != 1:
+            raise ConfigError(f'{where}: rate {gait.rate:g} Hz does not divide the step rate')
+        self.period = steps.numerator
+        self._ids = vehicle.joint_ids
+        self._wave = JointWave(
+            gait.frequency,
+            tuple(gait.amplitudes),
+            tuple(gait.phases),
+            tuple(gait.offsets),
+            gait.ramp,
+        )
+        self._tick = float(1 / exact(gait.rate))
+
+    def write(self, step: int, control: NDArray[np.float64]) -> None:
+        """Write the joint commands of a step that is a multiple of the period."""
+        control[self._ids] = self._wave.angles(step // self.period * self._tick)
+
+
+class Gaits:
+    """
+    The waves of all vehicles; ``next_step`` is what the step loop looks at.
+
+    A command on a vehicle's joints ends its wave until the next reset.
+    """
+
+    def __init__(
+        self, gaits: Mapping[str, Gait], vehicles: Mapping[str, Vehicle], timestep: float
+    ) -> None:
+        self._all = {name: GaitCycle(g, vehicles[name], timestep) for name, g in gaits.items()}
+        self.running: tuple[str, ...] = ()
+        self.next_step = NEVER
+        self.restart(0, tuple(self._all))
+
+    def restart(self, step: int, running: tuple[str, ...] | None = None) -> None:
+        """Go on from a step with the named waves (None: all of the scene)."""
+        self.running = tuple(self._all) if running is None else running
+        self._schedule_after(step - 1)
+
+    def end(self, vehicle: str) -> None:
+        """End a vehicle's wave, if it has one."""
+        if vehicle in self.running:
+            self.running = tuple(name for name in self.running if name != vehicle)
+            self._schedule_after(self.next_step - 1)
+
+    def write_due(self, step: int, control: NDArray[np.float64]) -> None:
+        """Write the commands that take effect at this step."""
+        if step < self.next_step:
+            return
+        for name in self.running:
+            if step % self._all[name].period == 0:
+                self._all[name].write(step, control)
+        self._schedule_after(step)
+
+    def _schedule_after(self, step: int) -> None:
+        periods = [self._all[name].period for name in self.running]
+        self.next_step = min((step // p * p + p for p in periods), default=NEVER)

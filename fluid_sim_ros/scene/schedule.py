@@ -1,0 +1,63 @@
+"""The scene's timed events (wind, current, thrust, disturbances) on the integer step clock."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from fluid_sim_ros.schema.scene import ScheduledEvent
+from fluid_sim_ros.step_clock import NEVER, whole_steps
+
+
+@dataclass(frozen=True)
+class Event:
+    """A scheduled change and the step at whose start it takes effect."""
+
+    step: int
+    change: ScheduledEvent
+
+
+class Schedule:
+    """
+    Events in the order of their steps; ``next_step`` is all that the step loop looks at.
+
+    The scene's own events return with every reset; those added at run time do not.
+    """
+
+    def __init__(self, changes: Sequence[ScheduledEvent], timestep: float) -> None:
+        self._scene = tuple(
+            Event(whole_steps(c.at, timestep, f'schedule at {c.at:g}'), c) for c in changes
+        )
+        self.next_step = NEVER
+        self._added: tuple[Event, ...] = ()
+        self._pending: list[Event] = []
+        self.rewind(0)
+
+    def add(self, event: Event) -> None:
+        """Add an event of this run."""
+        self._added = (*self._added, event)
+        self._pending = self._sorted([*self._pending, event])
+        self._update()
+
+    def added(self) -> tuple[Event, ...]:
+        """Return what was added in this run."""
+        return self._added
+
+    def rewind(self, step: int, added: tuple[Event, ...] = ()) -> None:
+        """Make every event at or after ``step`` pending, with ``added`` as those of this run."""
+        self._added = added
+        self._pending = self._sorted(e for e in (*self._scene, *added) if e.step >= step)
+        self._update()
+
+    def take_due(self, step: int) -> list[ScheduledEvent]:
+        """Return the changes that take effect at or before ``step`` and mark them done."""
+        due = []
+        while self.next_step <= step:
+            due.append(self._pending.pop(0).change)
+            self._update()
+        return due
+
+    def _update(self) -> None:
+        self.next_step = self._pending[0].step if self._pending else NEVER
+
+    @staticmethod
+    def _sorted(events: Iterable[Event]) -> list[Event]:
+        return sorted(events, key=lambda event: event.step)

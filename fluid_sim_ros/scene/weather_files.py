@@ -1,0 +1,80 @@
+"""Reads the files that a scene's weather names; a fault is one line with file and row."""
+
+import csv
+import math
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.scene.grid_files import pack, read_grid
+from fluid_sim_ros.schema.weather import GridFile, Series
+
+COLUMNS = ('t', 'x', 'y', 'z')
+
+
+def with_files(models: list[Any], folder: Path) -> tuple[Any, ...]:
+    """Return the models with the content of their files (paths relative to ``folder``)."""
+    return tuple(_with_file(model, folder) for model in models)
+
+
+def _with_file(model: Any, folder: Path) -> Any:
+    if isinstance(model, Series) and model.times is None:
+        rows = read_csv(folder / str(model.file))
+        return model.model_copy(
+            update={'times': [row[0] for row in rows], 'velocities': [row[1:] for row in rows]}
+        )
+    if isinstance(model, GridFile) and model.data is None:
+        return model.model_copy(update={'data': pack(read_grid(folder / model.file))})
+    return model
+
+
+def read_csv(path: Path) -> list[list[float]]:
+    """
+    Return the rows t [s], x, y, z [m/s] of a CSV file with a header; other columns are ignored.
+
+    Raises
+    ------
+    ConfigError
+        For a file that cannot be read, a missing column, a gap, a number that is not finite, or
+        times that do not rise.
+
+    """
+    try:
+        with path.open(newline='', encoding='utf-8') as file:
+            reader = csv.DictReader(file, skipinitialspace=True)
+            names = reader.fieldnames or []
+            missing = [name for name in COLUMNS if name not in names]
+            if missing:
+                raise ConfigError(
+                    f"{path}: no column '{missing[0]}'; needed: {listed(COLUMNS)}; "
+                    f'it has: {listed(names)}'
+                )
+            rows = [_row(path, reader.line_num, row) for row in reader]
+    except FileNotFoundError:
+        raise ConfigError(f'{path}: no such file') from None
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ConfigError(f'{path}: {error}') from None
+    if len(rows) < 2:
+        raise ConfigError(f'{path}: {len(rows)} rows; a time series needs two or more')
+    for number in range(1, len(rows)):
+        if rows[number][0] <= rows[number - 1][0]:
+            raise ConfigError(
+                f'{path}: t must rise strictly: {rows[number][0]:g} after '
+                f'{rows[number - 1][0]:g} s (data row {number + 1})'
+            )
+    return rows
+
+
+def _row(path: Path, line: int, row: dict[str, Any]) -> list[float]:
+    values = []
+    for name in COLUMNS:
+        text = row[name]
+        try:
+            value = float(text)
+        except (TypeError, ValueError):
+            what = 'a gap' if not text else repr(text)
+            raise ConfigError(f"{path}: line {line}, column '{name}': {what}") from None
+        if not math.isfinite(value):
+            raise ConfigError(f"{path}: line {line}, column '{name}': {text} is not finite")
+        values.append(value)
+    return values

@@ -1,0 +1,139 @@
+"""
+Our YAML files as strict schemas: number types, reading, and one-line errors.
+
+What the files hold stands in ``scene``, ``sensors`` and ``weather`` beside this module.
+"""
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, TypeVar, get_args
+
+import yaml
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+
+from fluid_sim_ros.errors import ConfigError, listed
+
+Schema = TypeVar('Schema', bound='Strict')
+
+# A vehicle name becomes part of topic names, so it follows the ROS 2 rule for name tokens.
+NAME_PATTERN = r'^[A-Za-z][A-Za-z0-9_]*$'
+
+
+def _number(value: Any) -> float:
+    """Accept what YAML 1.1 and people write for a finite number (also ``1e-3``, a YAML string)."""
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise ValueError('must be a number')
+    try:
+        number = float(value)
+    except ValueError:
+        raise ValueError('must be a number') from None
+    if not math.isfinite(number):
+        raise ValueError('must be finite')
+    return number
+
+
+Number = Annotated[float, BeforeValidator(_number)]
+Positive = Annotated[Number, Field(gt=0)]
+NotNegative = Annotated[Number, Field(ge=0)]
+Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Name = Annotated[str, Field(pattern=NAME_PATTERN)]
+
+
+class Strict(BaseModel):
+    """A mapping with the stated keys and no others."""
+
+    model_config = ConfigDict(extra='forbid', frozen=True)
+
+
+class _UniqueKeys(yaml.SafeLoader):
+    """A safe loader that refuses a key given twice (plain YAML keeps the last, silently)."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if key in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f'key {key!r} stands twice', key_node.start_mark
+                )
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+def read_yaml(path: Path) -> Any:
+    """Return the content of a YAML file; a ConfigError names the file and the line."""
+    try:
+        return yaml.load(path.read_text(encoding='utf-8'), Loader=_UniqueKeys)
+    except FileNotFoundError:
+        raise ConfigError(f'{path}: no such file') from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError(f'{path}: {error}') from None
+    except yaml.YAMLError as error:
+        raise ConfigError(f'{path}: not valid YAML: {" ".join(str(error).split())}') from None
+
+
+def parse(schema: type[Schema], content: Any, path: Path) -> Schema:
+    """Validate ``content`` against a schema; the first fault becomes one line of ConfigError."""
+    if not isinstance(content, dict):
+        raise ConfigError(
+            f'{path}: must be a mapping with the keys: {listed(schema.model_fields)}'
+        )
+    try:
+        return schema.model_validate(content)
+    except ValidationError as error:
+        raise ConfigError(f'{path}: {_first_fault(schema, error)}') from None
+
+
+def _first_fault(schema: type[BaseModel], error: ValidationError) -> str:
+    # the deepest fault is the one that the writer can act on (a union reports each member)
+    fault = max(error.errors(include_url=False), key=lambda fault: len(fault['loc']))
+    place, owner = _place(schema, fault['loc'])
+    kind, message = fault['type'], fault['msg'].removeprefix('Value error, ')
+    if kind == 'extra_forbidden':
+        return f"unknown key '{place}'; allowed: {listed(owner.model_fields)}"
+    if kind == 'missing':
+        return f"missing key '{place}'"
+    if kind == 'union_tag_not_found':
+        return f"missing key '{place}.model'"
+    if kind == 'union_tag_invalid':
+        known = fault['ctx']['expected_tags'].replace("'", '')
+        return f"key '{place}.model': '{fault['ctx']['tag']}' is not known; allowed: {known}"
+    if isinstance(fault['input'], dict):  # a rule between keys: the whole mapping tells nothing
+        return f"key '{place}': {message}" if place else message
+    return f"key '{place}': {message} (got {fault['input']!r})"
+
+
+def _place(schema: type[BaseModel], location: tuple[Any, ...]) -> tuple[str, type[BaseModel]]:
+    """
+    Return a fault's place as a reader writes it, and the schema of the mapping it lies in.
+
+    pydantic adds to the place which member of a union it took: a class, a type, or the value of
+    the key ``model``; these mean nothing to a reader.
+    """
+    parts, members = [], [schema]
+    for part in location:
+        chosen = [member for member in members if part in (member.__name__, _model(member))]
+        if chosen and not any(part in member.model_fields for member in members):
+            members = chosen
+        elif part != 'str' and '[' not in str(part):
+            parts.append(str(part))
+            fields = [m.model_fields[part] for m in members if part in m.model_fields]
+            found = [s for field in fields for s in _schemas(field.annotation)]
+            schema, members = members[0], found or members
+    return '.'.join(parts), schema
+
+
+def _model(schema: type[BaseModel]) -> str | None:
+    """Return the value of the key ``model`` that chooses a schema in a union."""
+    field = schema.model_fields.get('model')
+    values = get_args(field.annotation) if field else ()
+    return values[0] if values else None
+
+
+def _schemas(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Yield the schemas that a field's type is made of."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _schemas(part)

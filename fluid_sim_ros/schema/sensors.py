@@ -1,0 +1,186 @@
+"""
+The YAML schema of ``sensors:`` in config/vehicles, and of the presets in config/sensors.
+
+A sensor without errors stated is exact: each error is off until a number switches it on.
+"""
+
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field, model_validator
+
+from fluid_sim_ros.errors import listed
+from fluid_sim_ros.resources import config_folder
+from fluid_sim_ros.schema.base import NotNegative, Number, Positive, Strict, Vector, read_yaml
+
+Limits = Annotated[list[Number], Field(min_length=2, max_length=2)]
+
+
+class Channel(Strict):
+    """
+    Errors of one measured quantity of unit u, the same on each of its axes.
+
+    Attributes
+    ----------
+    density
+        White noise as root of its two-sided spectral density (the angle or velocity random walk
+        of an inertial sensor) [u/sqrt(Hz)]; its deviation is density x sqrt(rate).
+    deviation
+        White noise as standard deviation of a reading [u]; adds to that of ``density``.
+    bias_walk
+        Random walk of the bias, which begins at 0: after t its variance is bias_walk^2 t
+        [u/sqrt(s)].
+    resolution
+        Readings are whole multiples of it [u]; 0: not quantised.
+    range
+        Lowest and highest reading [u]: beyond, the sensor saturates and counts it.
+
+    """
+
+    density: NotNegative = 0.0
+    deviation: NotNegative = 0.0
+    bias_walk: NotNegative = 0.0
+    resolution: NotNegative = 0.0
+    range: Limits | None = None
+
+    @model_validator(mode='after')
+    def _range_is_ordered(self) -> 'Channel':
+        if self.range is not None and not self.range[0] < self.range[1]:
+            raise ValueError('range: the first number must be below the second')
+        return self
+
+    def variance(self, rate: float) -> float:
+        """Return the variance of a reading [u^2]: white noise and rounding, not the bias."""
+        return self.density**2 * rate + self.deviation**2 + self.resolution**2 / 12.0
+
+
+class SensorFile(Strict):
+    """
+    What every sensor has.
+
+    Attributes
+    ----------
+    preset
+        File of config/sensors/<kind> with values for what is not stated here.
+    site
+        Site of the base body where it sits and along whose axes it measures; default: base_link.
+    rate
+        Readings per second of simulated time [Hz]; must divide the step rate.
+    latency
+        Time from what is measured to the reading [s]; a whole number of timesteps.
+    source
+        Where the numbers come from.
+
+    """
+
+    kind: ClassVar[str]
+
+    preset: Annotated[str, Field(exclude=True)] = ''
+    site: str | None = None
+    rate: Positive
+    latency: NotNegative = 0.0
+    source: str = ''
+
+    @model_validator(mode='before')
+    @classmethod
+    def _fill_from_preset(cls, content: Any) -> Any:
+        if not isinstance(content, dict) or not content.get('preset'):
+            return content
+        known = presets(cls.kind)
+        if content['preset'] not in known:
+            raise ValueError(
+                f"preset '{content['preset']}' is not known; presets: {listed(known)}"
+            )
+        path = config_folder() / 'sensors' / cls.kind / f'{content["preset"]}.yaml'
+        return {**read_yaml(path), **content}
+
+
+def presets(kind: str) -> list[str]:
+    """Return the names of the presets of a kind of sensor, sorted."""
+    return sorted(path.stem for path in (config_folder() / 'sensors' / kind).glob('*.yaml'))
+
+
+class ImuFile(SensorFile):
+    """Accelerometer [m/s^2] and gyroscope [rad/s]."""
+
+    kind = 'imu'
+    accelerometer: Channel = Channel()
+    gyroscope: Channel = Channel()
+
+
+class MagnetometerFile(SensorFile):
+    """Magnetic flux density [T]."""
+
+    kind = 'magnetometer'
+    field: Channel = Channel()
+
+
+class BarometerFile(SensorFile):
+    """Static pressure [Pa], for altitude."""
+
+    kind = 'barometer'
+    pressure: Channel = Channel()
+
+
+class PressureFile(SensorFile):
+    """Absolute pressure of the water [Pa], for depth."""
+
+    kind = 'pressure'
+    pressure: Channel = Channel()
+
+
+class GnssFile(SensorFile):
+    """Position of the antenna, east and north, and up [m], and its velocity [m/s]."""
+
+    kind = 'gnss'
+    horizontal: Channel = Channel()
+    vertical: Channel = Channel()
+    velocity: Channel = Channel()
+
+
+class AirspeedFile(SensorFile):
+    """Differential pressure of a pitot tube along x of its axes [Pa]."""
+
+    kind = 'airspeed'
+    pressure: Channel = Channel()
+
+
+class RangefinderFile(SensorFile):
+    """Distance along ``direction`` of its axes [m]; beyond the range it is infinite."""
+
+    kind = 'rangefinder'
+    distance: Channel = Channel()
+    direction: Vector = [0.0, 0.0, -1.0]
+
+
+class DvlFile(SensorFile):
+    """
+    Doppler velocity log: velocity over the bed [m/s] by four beams, and height over it [m].
+
+    The beams point down (-z of its axes), tilted by ``beam_angle`` [deg] towards the four corners;
+    ``altitude.range`` bounds the height of bottom lock.
+    """
+
+    kind = 'dvl'
+    velocity: Channel = Channel()
+    altitude: Channel = Channel()
+    beam_angle: Annotated[Number, Field(ge=0, lt=90)] = 22.5
+
+
+class SensorsFile(Strict):
+    """
+    The sensors of a vehicle.
+
+    ``dither`` adds uniform noise within one quantum either way to every reading of the IMU, the
+    magnetometer, the barometer and the pressure sensor: autopilots take a constant reading for a
+    dead sensor.
+    """
+
+    imu: ImuFile | None = None
+    magnetometer: MagnetometerFile | None = None
+    barometer: BarometerFile | None = None
+    pressure: PressureFile | None = None
+    gnss: GnssFile | None = None
+    airspeed: AirspeedFile | None = None
+    rangefinder: RangefinderFile | None = None
+    dvl: DvlFile | None = None
+    dither: bool = False

@@ -1,0 +1,89 @@
+"""Many runs of one simulation in a single call, in which Python has no part."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.errors import DivergedError
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.simulation.engine import divergence
+from fluid_sim_ros.step_clock import StepClock
+
+Array = NDArray[np.float64]
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+class ManyRuns:
+    """
+    Runs that differ by their start and their commands only, to the bits of ``Simulation.step``.
+
+    Nothing may change on the way: no scheduled event, no gait, no commanded wrench
+    (``Simulation.next_change``). ``take`` takes up the simulation's present state as a start,
+    ``fly`` flies them all; the simulation needs ``reset`` afterwards.
+
+    Parameters
+    ----------
+    simulation
+        What is flown.
+    steps
+        Of each run.
+    period
+        Steps between two looks at the largest values.
+    most
+        Runs of one call at most.
+
+    Attributes
+    ----------
+    rows
+        The vehicles at the end of each run, with the columns of ``plugins.native`` up to the
+        medium's velocity; shape (runs, n, columns).
+    largest
+        As ``engine.Largest``, shape (runs, n, 3).
+    times
+        At the end of each run [s].
+
+    """
+
+    def __init__(self, simulation: Simulation, steps: int, period: int, most: int) -> None:
+        self._simulation = simulation
+        self._model, self._data = simulation.model, simulation.data
+        bodies = [vehicle.body_id for vehicle in simulation.vehicles.values()]
+        self._bases = np.array(bodies, dtype=np.int32)
+        self._states = np.zeros((most, mujoco.mj_stateSize(self._model, _STATE)))
+        self._winds = np.zeros((most, 3))
+        self._done = np.zeros(most, dtype=np.int32)
+        self._reports = np.zeros((most, 2))
+        self._rows = np.zeros((most, len(bodies), nat.ROW_WIDTH))
+        self._largest = np.zeros((most, len(bodies), 3))
+        self._steps, self._period = steps, period
+        self._clock = StepClock(simulation.timestep)
+        self.count = 0
+
+    def take(self) -> None:
+        """Take up the simulation's present state and commands as the start of one more run."""
+        mujoco.mj_getState(self._model, self._data, self._states[self.count], _STATE)
+        self._winds[self.count] = self._model.opt.wind
+        self.count += 1
+
+    def fly(self) -> None:
+        """Fly the runs that were taken up; their results stand until the next call."""
+        self._largest[:] = 0.0
+        arrays = (
+            self._states, self._winds, self._done, self._reports, self._rows, self._largest,
+        )  # fmt: skip
+        nat.native().runs(
+            self._model._address, self._data._address, self._simulation.observed._address,
+            self._bases.ctypes.data, len(self._bases), self.count, self._steps, self._period,
+            *(array.ctypes.data for array in arrays),
+        )  # fmt: skip
+        flown = slice(0, self.count)
+        self.rows, self.largest = self._rows[flown], self._largest[flown]
+        self.times = [self._clock.time(step) for step in self._done[flown].tolist()]
+        self.count = 0
+
+    def divergence(self, run: int) -> DivergedError | None:
+        """Return the error that ended a run, or None for one that went through."""
+        if self._done[run] == self._steps:
+            return None
+        return divergence(self._model, *self._reports[run].tolist())

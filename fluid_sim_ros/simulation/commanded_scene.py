@@ -1,0 +1,208 @@
+"""A compiled scene under commands: thrust, joints, wrenches, wind and current; without time."""
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.errors import CommandError, listed
+from fluid_sim_ros.scene.scene import CompiledScene
+from fluid_sim_ros.scene.vehicle import Vehicle
+from fluid_sim_ros.schema.scene import ScheduledEvent
+from fluid_sim_ros.simulation.actuation import CommandedWrench, Controls, finite
+from fluid_sim_ros.simulation.engine import Engine
+from fluid_sim_ros.simulation.wind_and_current import Streams
+
+Array = NDArray[np.float64]
+
+
+class CommandedScene:
+    """
+    The model and data of a scene, and what it is told to do.
+
+    Commands are written where the next step reads them, and hold until changed. A commanded
+    wrench turns with its vehicle, so it is written anew at each step, by ``_write_wrenches``.
+
+    Parameters
+    ----------
+    compiled
+        Model, vehicles and gaits.
+
+    """
+
+    def __init__(self, compiled: CompiledScene) -> None:
+        self._vehicles = compiled.vehicles
+        self._gaits = compiled.gaits
+        self._engine = Engine(compiled.model, [v.body_id for v in self._vehicles.values()])
+        self._streams = Streams(self._engine, compiled.streams)
+        self._model, self._data = self._engine.model, self._engine.data
+        self._wrenches: dict[str, CommandedWrench] = {}
+        control = self._data.ctrl
+        self._thrusts = {
+            v.name: Controls(
+                control, f"thrust of '{v.name}'", v.thrusters, v.thruster_ids, v.thrust_range
+            )
+            for v in self._vehicles.values()
+        }
+        self._joints = {
+            v.name: Controls(
+                control, f"joints of '{v.name}'", v.joints, v.joint_ids, v.joint_range
+            )
+            for v in self._vehicles.values()
+        }
+
+    @property
+    def model(self) -> mujoco.MjModel:
+        """The MuJoCo model; change it only between steps."""
+        return self._model
+
+    @property
+    def data(self) -> mujoco.MjData:
+        """The MuJoCo data that is stepped."""
+        return self._data
+
+    @property
+    def streams(self) -> tuple[str, ...]:
+        """Which of wind and current the scene has."""
+        return self._streams.available
+
+    @property
+    def flow_road(self) -> str:
+        """
+        How wind and current reach the bodies.
+
+        ``opt.wind``: one velocity for the whole scene. ``fluid_sim.medium``: each body meets its
+        own, by place and time.
+        """
+        return self._streams.road
+
+    @property
+    def vehicles(self) -> Mapping[str, Vehicle]:
+        """Vehicles by name."""
+        return MappingProxyType(self._vehicles)
+
+    def vehicle(self, name: str) -> Vehicle:
+        """Return a vehicle by name, or raise CommandError with the names that exist."""
+        try:
+            return self._vehicles[name]
+        except KeyError:
+            raise CommandError(
+                f"vehicle '{name}' is not in the scene; it has: {listed(self._vehicles)}"
+            ) from None
+
+    def set_thrust(self, vehicle: str, values: Sequence[float] | Array) -> int:
+        """
+        Command the thrusters of a vehicle.
+
+        Parameters
+        ----------
+        vehicle
+            Vehicle name.
+        values
+            One command per thruster in the order of ``vehicles[name].thrusters`` [N].
+
+        Returns
+        -------
+        int
+            How many values were beyond the thrusters' range and therefore saturated.
+
+        Raises
+        ------
+        CommandError
+            Unknown vehicle, wrong length, or a value that is not finite.
+
+        """
+        if vehicle not in self._thrusts:
+            self.vehicle(vehicle)  # says which there are
+        return self._thrusts[vehicle].write(values)
+
+    def set_joints(self, vehicle: str, values: Mapping[str, float] | Sequence[float]) -> int:
+        """
+        Command the joint actuators of a vehicle, by name or all in order; as ``set_thrust``.
+
+        A mapping may name some of them; the others keep their commands. It ends the scene's gait
+        of this vehicle until the next reset.
+        """
+        target, joints = self.vehicle(vehicle), self._joints[vehicle]
+        if isinstance(values, Mapping):
+            unknown = [name for name in values if name not in target.joints]
+            if unknown:
+                raise CommandError(
+                    f"joints of '{vehicle}': '{unknown[0]}' is not one of them: "
+                    f'{listed(target.joints)}'
+                )
+            held = dict(zip(target.joints, joints.read(), strict=True))
+            values = [{**held, **values}[name] for name in target.joints]
+        saturated = joints.write(values)
+        self._gaits.end(vehicle)
+        return saturated
+
+    def set_wind(self, velocity: Sequence[float] | Array) -> None:
+        """
+        Set the wind [m/s, world axes, the direction that the air moves to].
+
+        Raises
+        ------
+        CommandError
+            Wrong length, not finite, or a scene without air.
+
+        """
+        self._streams.set('wind', finite('wind', velocity, 3))
+
+    def set_current(self, velocity: Sequence[float] | Array) -> None:
+        """Set the current of the water; as ``set_wind``."""
+        self._streams.set('current', finite('current', velocity, 3))
+
+    def enable_wind(self, enabled: bool) -> None:
+        """Switch wind and current on or off, gusts included; commanded velocities are kept."""
+        self._streams.enable(enabled)
+
+    def set_wrench(
+        self,
+        vehicle: str,
+        force: Sequence[float] | Array,
+        torque: Sequence[float] | Array,
+        frame: str = 'base_link',
+    ) -> None:
+        """
+        Apply a wrench at a vehicle's base_link origin, on top of its thrust.
+
+        Parameters
+        ----------
+        vehicle
+            Vehicle name.
+        force, torque
+            [N] and [N m], shape (3,); zeros end it.
+        frame
+            Axes of both: ``base_link`` (they turn with the vehicle, step by step) or ``map``.
+
+        Raises
+        ------
+        CommandError
+            Unknown vehicle or frame, wrong length, not finite, or a base without a free joint.
+
+        """
+        target = self.vehicle(vehicle)
+        wrench = CommandedWrench.checked(target, force, torque, frame)
+        if not wrench.is_zero():
+            self._wrenches[vehicle] = wrench
+        elif self._wrenches.pop(vehicle, None):
+            self._data.qfrc_applied[target.dof_address : target.dof_address + 6] = 0
+
+    def apply(self, change: ScheduledEvent) -> None:
+        """Command all that a scheduled event changes."""
+        if change.wind is not None:
+            self.set_wind(change.wind)
+        if change.current is not None:
+            self.set_current(change.current)
+        for vehicle, values in change.thrust.items():
+            self.set_thrust(vehicle, values)
+        for vehicle, wrench in change.wrench.items():
+            self.set_wrench(vehicle, wrench.force, wrench.torque, wrench.frame)
+
+    def _write_wrenches(self) -> None:
+        """Apply the commanded wrenches at the present attitudes."""
+        for name, wrench in self._wrenches.items():
+            wrench.write(self._vehicles[name], self._data)

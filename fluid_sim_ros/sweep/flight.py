@@ -1,0 +1,268 @@
+"""One run of a sweep: a scene with its numbers, flown to the end, as one row of results."""
+
+import dataclasses
+from collections import OrderedDict
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.simulation.batch import ManyRuns
+from fluid_sim_ros.simulation.engine import Largest
+from fluid_sim_ros.simulation.plant import plant_of
+from fluid_sim_ros.step_clock import whole_steps
+from fluid_sim_ros.sweep.hold_controller import Holding, holding
+from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, Value
+
+#: Most runs of a portion; as many are lost, per worker, with a process that is killed.
+LARGEST_PORTION = 128
+#: Compiled simulations that one thread keeps.
+_KEPT = 4
+#: Tries of a run that ends in an error that is none of ours.
+_TRIES = 2
+_UNEXPECTED = (RuntimeError, ArithmeticError, LookupError, ValueError, TypeError, MemoryError)
+#: Columns of each vehicle: its motion at the end, and the largest values (engine.Largest).
+COLUMNS = (
+    *(f'{axis}_m' for axis in 'xyz'), *(f'q{part}' for part in 'wxyz'),
+    *(f'v{axis}_m_s' for axis in 'xyz'), *(f'w{axis}_rad_s' for axis in 'xyz'),
+    'largest_speed_m_s', 'largest_tilt_rad', 'farthest_m',
+)  # fmt: skip
+#: The motion in an observation row.
+MOTION = slice(nat.POSITION.start, nat.ANGULAR_VELOCITY.stop)
+
+Row = dict[str, Any]
+Array = NDArray[np.float64]
+
+
+@dataclasses.dataclass
+class Ready:
+    """
+    A compiled simulation, its run in steps, and the controller in its loop.
+
+    ``columns`` are the names of what comes out, vehicle by vehicle; ``many`` flies undisturbed
+    runs together, None where they are disturbed.
+    """
+
+    simulation: Simulation
+    steps: int
+    period: int
+    holding: Holding | None
+    largest: Largest
+    columns: tuple[str, ...]
+    many: ManyRuns | None
+
+
+class Flights:
+    """
+    Runs the cases of a sweep; each thread or process has its own.
+
+    Parameters
+    ----------
+    sweep
+        What is run.
+
+    """
+
+    def __init__(self, sweep: SweepFile) -> None:
+        self._sweep = sweep
+        self._scene = Scene.load(sweep.scene)
+        self._ready: OrderedDict[tuple[Any, ...], Ready] = OrderedDict()
+        self._plant = plant_of(self._scene, sweep.hold.vehicle) if sweep.hold else None
+        self.cases = Cases(sweep)
+
+    def check(self) -> int:
+        """
+        Prepare the first case; return its steps.
+
+        Raises
+        ------
+        FluidSimError
+            If the sweep asks for something that the scene does not have.
+
+        """
+        values = self.cases[0]
+        ready = self.prepare(values)
+        start(ready.simulation, values)
+        if ready.holding is not None:
+            ready.holding.begin(values)
+        return ready.steps
+
+    def rows(self, begin: int, end: int) -> list[Row]:
+        """
+        Return the rows of the runs from ``begin`` up to ``end``.
+
+        Runs that nothing disturbs on their way (no controller, event or gait) are flown together.
+        """
+        rows: list[Row] = []
+        together = _Together()
+        for index in range(begin, end):
+            values = self.cases[index]
+            try:
+                ready = self.prepare(values)
+                if ready.many is None:
+                    rows += [*self._landed(together), self.row(index)]
+                    continue
+                if not together.takes(ready):
+                    rows += self._landed(together)
+                start(ready.simulation, values)
+                together.take(ready, row_begun(index, values))
+            except (FluidSimError, *_UNEXPECTED):
+                rows += [*self._landed(together), self.row(index)]
+        return rows + self._landed(together)
+
+    def _landed(self, together: '_Together') -> list[Row]:
+        """Fly the runs that were taken up together; where that fails, one by one."""
+        begun = [int(row['run']) for row in together.begun]
+        try:
+            return together.fly()
+        except _UNEXPECTED:
+            return [self.row(index) for index in begun]
+
+    def row(self, index: int) -> Row:
+        """
+        Fly one case.
+
+        Whatever goes wrong stays in its row: ``status`` is ``ok``, ``diverged`` or ``failed``, and
+        ``message`` says why.
+        """
+        values = self.cases[index]
+        row = begin = row_begun(index, values)
+        for _ in range(_TRIES):
+            try:
+                return begin | self._fly(values)
+            except FluidSimError as error:
+                return begin | {'status': 'failed', 'message': str(error)}
+            except _UNEXPECTED as error:  # isolated: the other runs go on
+                row = begin | {'status': 'failed', 'message': f'{type(error).__name__}: {error}'}
+                self._ready.clear()
+        return row
+
+    def _fly(self, values: Mapping[str, Value]) -> Row:
+        ready = self.prepare(values)
+        simulation, holds, largest = ready.simulation, ready.holding, ready.largest
+        start(simulation, values)
+        largest.begin()
+        row: Row = {}
+        if holds is not None:
+            holds.begin(values)
+        try:
+            while simulation.step_count < ready.steps:
+                if holds is not None:
+                    holds.answer(simulation)
+                left = ready.steps - simulation.step_count
+                simulation.step(min(ready.period, left))
+                largest.look()
+        except DivergedError as error:
+            row = {'status': 'diverged', 'message': str(error)}
+        row['time_s'] = simulation.time
+        motion = simulation.observe(forces=False)[:, MOTION]
+        row |= columns(ready, motion, largest.values)
+        return row if holds is None else row | holds.columns()
+
+    def prepare(self, values: Mapping[str, Value]) -> Ready:
+        """Return the simulation of a case, compiled at most once for equal settings."""
+        masses = tuple((k, float(v)) for k, v in values.items() if k.startswith('mass.'))
+        settings = {
+            name: values.get(name, getattr(self._sweep, name))
+            for name in ('timestep', 'integrator', 'fluid')
+        }
+        seed = int(values.get('seed', 0))
+        key = (*settings.values(), seed, masses)
+        ready = self._ready.get(key)
+        if ready is None:
+            ready = self._ready[key] = self._compile(settings, seed, dict(masses))
+            if len(self._ready) > _KEPT:
+                self._ready.popitem(last=False)
+        return ready
+
+    def _compile(
+        self, settings: Mapping[str, Any], seed: int, masses: Mapping[str, float]
+    ) -> Ready:
+        sweep = self._sweep
+        factors = {key.removeprefix('mass.'): factor for key, factor in masses.items()}
+        scene = dataclasses.replace(self._scene, masses=factors)
+        simulation = Simulation(scene, seed=seed, **settings)
+        timestep = simulation.timestep
+        names = tuple(f'{name}.{key}' for name in simulation.vehicles for key in COLUMNS)
+        steps = whole_steps(sweep.duration or scene.duration, timestep, "key 'duration'")
+        if sweep.hold is None or self._plant is None:
+            period = max(1, round(1.0 / (sweep.sample_rate * timestep)))
+            undisturbed = simulation.next_change >= steps
+            many = ManyRuns(simulation, steps, period, LARGEST_PORTION) if undisturbed else None
+            return Ready(simulation, steps, period, None, simulation.largest(), names, many)
+        plant, vehicle = self._plant
+        holds = holding(sweep.hold, plant, vehicle.name, simulation)
+        largest = simulation.largest()
+        return Ready(simulation, steps, holds.period, holds, largest, names, None)
+
+
+_FLOWS = {'wind': Simulation.set_wind, 'current': Simulation.set_current}
+
+
+def start(simulation: Simulation, values: Mapping[str, Value]) -> None:
+    """Go to the start of a case, with what it changes at run time."""
+    simulation.reset()
+    flows: dict[str, list[float]] = {}
+    for key, value in values.items():
+        kind, _, name = key.partition('.')
+        if kind in _FLOWS:
+            flows.setdefault(kind, [0.0, 0.0, 0.0])['xyz'.index(name)] = float(value)
+        elif kind == 'thrust':
+            vehicle = simulation.vehicle(name)
+            if not vehicle.thrusters:
+                raise ConfigError(f"vary: '{key}': the vehicle has no thrusters")
+            simulation.set_thrust(name, float(value) * vehicle.thrust_range[:, 1])
+    for kind, velocity in flows.items():
+        _FLOWS[kind](simulation, velocity)
+
+
+def row_begun(index: int, values: Mapping[str, Value]) -> Row:
+    """Return the row of a run as it begins."""
+    return {'run': index, **values, 'status': 'ok', 'message': '', 'time_s': 0.0}
+
+
+def columns(ready: Ready, motion: Array, largest: Array) -> Row:
+    """Return what came out, from the vehicles' motion and its largest values."""
+    out = np.concatenate((motion, largest), axis=1).ravel().tolist()
+    return dict(zip(ready.columns, out, strict=True))
+
+
+class _Together:
+    """Undisturbed runs of one model, taken up one after the other and flown in one call."""
+
+    def __init__(self) -> None:
+        self._ready: Ready | None = None
+        self.begun: list[Row] = []
+
+    def takes(self, ready: Ready) -> bool:
+        """Return whether one more run of this model can join."""
+        fits = self._ready is None or self._ready is ready
+        return fits and len(self.begun) < LARGEST_PORTION
+
+    def take(self, ready: Ready, begun: Row) -> None:
+        """Take up the run that the simulation stands at the start of."""
+        assert ready.many is not None
+        ready.many.take()
+        self._ready = ready
+        self.begun.append(begun)
+
+    def fly(self) -> list[Row]:
+        """Fly them; return their rows and be empty."""
+        ready, begun = self._ready, self.begun
+        self._ready, self.begun = None, []
+        if ready is None or ready.many is None:
+            return []
+        many = ready.many
+        many.fly()
+        for i, row in enumerate(begun):
+            error = many.divergence(i)
+            if error is not None:
+                row |= {'status': 'diverged', 'message': str(error)}
+            row['time_s'] = many.times[i]
+            row |= columns(ready, many.rows[i][:, MOTION], many.largest[i])
+        return begun

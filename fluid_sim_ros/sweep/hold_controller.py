@@ -1,0 +1,125 @@
+"""A controller in the loop of a sweep's run: it holds a place, and its errors are measured."""
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.control.gains import Gains
+from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
+from fluid_sim_ros.control.plant import Plant
+from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import period_steps
+from fluid_sim_ros.sweep.sweep_file import Hold, Value
+
+_Numbers = list[float]
+#: Takes time, position, quaternion, velocity and rate; returns thrusts.
+Answer = Callable[[float, _Numbers, _Numbers, _Numbers, _Numbers], _Numbers]
+
+
+class Holding:
+    """
+    The controller of one vehicle; made by ``holding``.
+
+    Attributes
+    ----------
+    period
+        Steps between two answers.
+
+    """
+
+    def __init__(
+        self, hold: Hold, vehicle: str, row: int, period: int, law: Callable[[Gains], Answer]
+    ) -> None:
+        self.period = period
+        self._hold = hold
+        self._vehicle = vehicle
+        self._row = row
+        self._law = law
+        self._target = np.array(hold.target)
+        self._errors: list[float] = []
+
+    def begin(self, values: Mapping[str, Value]) -> None:
+        """Begin a run with the gains of its case."""
+        kind = _GAINS[self._hold.law]
+        varied = {k.removeprefix('gain.'): v for k, v in values.items() if k.startswith('gain.')}
+        self._answer = self._law(_gains(kind, {**self._hold.gains, **varied}))
+        self._errors = []
+
+    def answer(self, simulation: Simulation) -> None:
+        """Answer the present state with thrusts."""
+        row = simulation.observe(forces=False)[self._row]
+        position = row[nat.POSITION]
+        self._errors.append(math.dist(position, self._target))
+        thrusts = self._answer(
+            simulation.time, position.tolist(), row[nat.QUATERNION].tolist(),
+            row[nat.LINEAR_VELOCITY].tolist(), row[nat.ANGULAR_VELOCITY].tolist(),
+        )  # fmt: skip
+        simulation.set_thrust(self._vehicle, thrusts)
+
+    def columns(self) -> dict[str, Any]:
+        """Return the distances from the target over the run [m]."""
+        errors = np.array(self._errors)
+        return {
+            'hold.rms_error_m': float(np.sqrt((errors * errors).mean())),
+            'hold.largest_error_m': float(errors.max()),
+            'hold.end_error_m': float(errors[-1]),
+        }
+
+
+_GAINS: dict[str, type[Gains]] = {'multirotor': MultirotorGains, 'underwater': UnderwaterGains}
+
+
+def holding(hold: Hold, plant: Plant, vehicle: str, simulation: Simulation) -> Holding:
+    """
+    Return the controller of a sweep for a simulation.
+
+    Parameters
+    ----------
+    hold
+        Which law, and what it holds.
+    plant, vehicle
+        What the controller believes of its vehicle (``plant_of`` the scene as it stands), and the
+        vehicle's name.
+    simulation
+        What it will steer; a mass that varies is not known to the controller.
+
+    Raises
+    ------
+    ConfigError
+        If the rate does not fit the timestep.
+
+    """
+    period = period_steps(hold.rate, simulation.timestep, "key 'hold.rate'")
+    row = list(simulation.vehicles).index(vehicle)
+    return Holding(hold, vehicle, row, period, _LAWS[hold.law](hold, plant))
+
+
+def _gains(kind: type[Gains], values: Mapping[str, Any]) -> Gains:
+    known = [entry.name for entry in dataclasses.fields(kind)]
+    unknown = [name for name in values if name not in known]
+    if unknown:
+        raise ConfigError(f"gain '{unknown[0]}' is not one of them: {listed(known)}")
+    return kind(**values)
+
+
+def _multirotor(hold: Hold, plant: Plant) -> Callable[[Any], Answer]:
+    return lambda gains: partial(
+        MultirotorController(plant, gains).step, target_w=hold.target, yaw=hold.yaw
+    )
+
+
+def _underwater(hold: Hold, plant: Plant) -> Callable[[Any], Answer]:
+    return lambda gains: partial(
+        UnderwaterController(plant, gains).step,
+        depth=-hold.target[2], heading=hold.yaw, place_w=hold.target,
+    )  # fmt: skip
+
+
+_LAWS = {'multirotor': _multirotor, 'underwater': _underwater}

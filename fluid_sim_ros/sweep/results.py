@@ -1,0 +1,140 @@
+"""The rows of a sweep on disk: Parquet parts as they come, one table at the end."""
+
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.sweep.flight import Row
+from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
+
+#: Runs from the first up to the second.
+Portion = tuple[int, int]
+
+
+class Results:
+    """
+    The folder of a sweep.
+
+    ``sweep.json`` says what is run, ``parts/`` holds finished portions (a portion is there whole
+    or not at all), ``results.parquet`` all rows by run once every one is there.
+
+    Parameters
+    ----------
+    folder
+        Made when it is not there.
+    sweep
+        What is run.
+    device
+        On what device, if not on the processor.
+
+    Raises
+    ------
+    ConfigError
+        If the folder holds another sweep, or cannot be written.
+
+    """
+
+    def __init__(self, folder: Path, sweep: SweepFile, device: str = '') -> None:
+        self._parts = folder / 'parts'
+        self.table_path = folder / 'results.parquet'
+        self._tables: dict[int, pa.Table] = {}
+        plain = as_plain(sweep) | ({'device': device} if device else {})
+        text = json.dumps(plain, indent=2) + '\n'
+        stated = folder / 'sweep.json'
+        try:
+            self._parts.mkdir(parents=True, exist_ok=True)
+            if stated.exists() and stated.read_text(encoding='utf-8') != text:
+                raise ConfigError(
+                    f'{folder}: holds the results of another sweep or device; choose another '
+                    '--out, or delete it'
+                )
+            stated.write_text(text, encoding='utf-8')
+        except OSError as error:
+            raise ConfigError(f'--out {folder}: {error.strerror}') from None
+
+    def kept(self) -> list[Portion]:
+        """
+        Take up what an earlier try left, and return its portions, in order.
+
+        A part that is not whole, or overlaps another one, is deleted.
+        """
+        kept: list[Portion] = []
+        for path in self._parts.glob('*.unfinished'):
+            path.unlink()
+        for path in sorted(self._parts.glob('*.parquet')):
+            table = _read(path)
+            if table is None or (kept and table['run'][0].as_py() < kept[-1][1]):
+                path.unlink()
+                continue
+            begin = int(table['run'][0].as_py())
+            self._tables[begin] = table
+            kept.append((begin, begin + len(table)))
+        return kept
+
+    def add(self, rows: Sequence[Row]) -> None:
+        """Keep a portion, its rows in the order of their runs."""
+        begin = int(rows[0]['run'])
+        table = as_table(rows)
+        _write(table, self._parts / f'{begin:09d}.parquet')
+        self._tables[begin] = table
+
+    def finish(self) -> pa.Table:
+        """Write the table of all portions and return it."""
+        tables = [self._tables[begin] for begin in sorted(self._tables)]
+        # a run that failed has no state: the columns are those of all portions together
+        table = pa.concat_tables(tables, promote_options='permissive')
+        _write(table, self.table_path)
+        return table
+
+
+def as_table(rows: Sequence[Row]) -> pa.Table:
+    """Return rows as a table with the columns of all of them."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return pa.table({name: [row.get(name) for row in rows] for name in names})
+
+
+def gaps(kept: Iterable[Portion], total: int) -> list[Portion]:
+    """Return what of ``total`` runs is not there yet, in order."""
+    found, at = [], 0
+    for begin, end in (*kept, (total, total)):
+        if begin > at:
+            found.append((at, begin))
+        at = end
+    return found
+
+
+def _read(path: Path) -> pa.Table | None:
+    """Return a part, or None where it is not whole."""
+    try:
+        table = pq.read_table(path)
+        return table if len(table) and int(path.stem) == table['run'][0].as_py() else None
+    except (pa.ArrowInvalid, OSError, KeyError, ValueError):
+        return None
+
+
+def _write(table: pa.Table, path: Path) -> None:
+    unfinished = path.with_suffix('.unfinished')
+    pq.write_table(table, unfinished)
+    unfinished.replace(path)
+
+
+def statistics(table: pa.Table) -> dict[str, Any]:
+    """Return how the runs ended, and minimum, median and maximum of what came out."""
+    ends = table.column('status').value_counts().to_pylist()
+    numbers = {}
+    for name in table.column_names:
+        column = table.column(name)
+        if name == 'run' or not pa.types.is_floating(column.type):
+            continue
+        values = column.drop_null().to_numpy()
+        values = values[np.isfinite(values)]
+        if len(values):
+            low, middle, high = np.quantile(values, (0.0, 0.5, 1.0)).tolist()
+            numbers[name] = {'min': low, 'median': middle, 'max': high}
+    return {'status': {entry['values']: entry['counts'] for entry in ends}, 'columns': numbers}

@@ -1,0 +1,118 @@
+"""Who flies the runs of a sweep: threads of this machine, or workers of Ray."""
+
+import logging
+import socket
+import threading
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import Any
+
+from fluid_sim_ros.errors import ConfigError, MissingExtraError
+from fluid_sim_ros.sweep.flight import Flights, Row
+from fluid_sim_ros.sweep.results import Portion
+from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
+
+#: How long an address may take to answer [s].
+_ANSWER_S = 5.0
+
+
+def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> Iterator[list[Row]]:
+    """
+    Fly portions in threads; stepping releases Python's lock, so they run side by side.
+
+    ``mujoco.rollout`` and ``mujoco.batch`` would not do for all: they know neither the schedule
+    and gaits of a scene nor a controller nor the watch after each step. For runs that need none of
+    this ``simulation.batch.BatchRuns`` does the same, and leaves little to gain.
+    """
+    own = threading.local()
+
+    def fly(portion: Portion) -> list[Row]:
+        if not hasattr(own, 'flights'):
+            own.flights = Flights(sweep)
+        rows: list[Row] = own.flights.rows(*portion)
+        return rows
+
+    pool = ThreadPoolExecutor(workers)
+    try:
+        futures = [pool.submit(fly, portion) for portion in portions]
+        for future in as_completed(futures):
+            yield future.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+#: The sweep that a Ray worker runs, ready to fly: key and flights.
+_worker: dict[str, Flights] = {}
+
+
+def _fly_remotely(plain: dict[str, Any], portion: Portion) -> list[Row]:
+    key = repr(plain)
+    if key not in _worker:
+        _worker.clear()
+        _worker[key] = Flights(SweepFile.model_validate(plain))
+    return _worker[key].rows(*portion)
+
+
+def on_ray(
+    sweep: SweepFile, portions: Sequence[Portion], workers: int, address: str
+) -> Iterator[list[Row]]:
+    """
+    Fly portions on a Ray cluster, which repeats those of a worker that dies.
+
+    Raises
+    ------
+    ConfigError, MissingExtraError
+        If there is no cluster at the address, or no Ray here.
+
+    """
+    try:
+        import ray
+    except ModuleNotFoundError:
+        raise MissingExtraError(
+            '--ray needs ray, which is not installed; type: pip install "fluid_sim_ros[sweep]"'
+        ) from None
+    local = address == 'local'
+    if not local:
+        _check_address(address)
+    try:
+        ray.init(
+            address='local' if local else address, num_cpus=workers if local else None,
+            include_dashboard=False if local else None, log_to_driver=False,
+            logging_level=logging.ERROR,
+        )  # fmt: skip
+    except (ConnectionError, ValueError) as error:
+        raise ConfigError(f"--ray '{address}': {str(error).splitlines()[0]}") from None
+    try:
+        fly = ray.remote(max_retries=3)(_fly_remotely)
+        plain = as_plain(sweep)
+        flying: set[Any] = set()
+        for portion in portions:
+            flying.add(fly.remote(plain, portion))
+            if len(flying) >= 2 * workers:
+                yield from _first(ray, flying)
+        while flying:
+            yield from _first(ray, flying)
+    finally:
+        ray.shutdown()
+
+
+def _check_address(address: str) -> None:
+    """Refuse an address where nothing answers: Ray itself would try for minutes."""
+    if address == 'auto':
+        return
+    host, _, port = address.removeprefix('ray://').rpartition(':')
+    if not host or not port.isdigit():
+        raise ConfigError(
+            f"--ray '{address}': not an address; allowed: local, auto, HOST:PORT, ray://HOST:PORT"
+        )
+    try:
+        socket.create_connection((host.strip('[]'), int(port)), timeout=_ANSWER_S).close()
+    except (OSError, OverflowError) as error:
+        raise ConfigError(f"--ray '{address}': no Ray answers there ({error})") from None
+
+
+def _first(ray: Any, flying: set[Any]) -> Iterable[list[Row]]:
+    """Yield the portion that is ready first."""
+    (ready,), _ = ray.wait(list(flying), num_returns=1)
+    flying.remove(ready)
+    yield ray.get(ready)
