@@ -171,6 +171,6 @@ def test_every_way_to_run_gives_the_same_bits(integrator):
 
 
 def test_every_key_is_documented():
-    page = (Path(__file__).parents[2] / 'doc' / 'foil.md').read_text(encoding='utf-8')
+    page = (Path(__file__).parents[3] / 'doc' / 'foil.md').read_text(encoding='utf-8')
     for key in native().plugin_keys('fluid_sim.foil'):
         assert f'`{key}`' in page

@@ -130,6 +130,6 @@ def test_unknown_key():
 
 
 def test_every_key_is_documented():
-    page = (Path(__file__).parents[2] / 'doc' / 'thruster.md').read_text(encoding='utf-8')
+    page = (Path(__file__).parents[3] / 'doc' / 'thruster.md').read_text(encoding='utf-8')
     for key in native().plugin_keys('fluid_sim.thruster'):
         assert f'| `{key}` |' in page
