@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
-
-Array = NDArray[np.float64]
+from fluid_sim_ros.physics.arrays import Array
 
 #: Axes of a wrench in the order of its six numbers.
 AXES = ('fx', 'fy', 'fz', 'tx', 'ty', 'tz')

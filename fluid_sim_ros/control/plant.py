@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ class Plant:
     mass: float
     inertia: tuple[float, float, float]
     weight: float
-    thruster_matrix: NDArray[np.float64]
-    thrust_limits: NDArray[np.float64]
+    thruster_matrix: Array
+    thrust_limits: Array
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.mass) and self.mass > 0):

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.demo.summary import VEHICLE, Recording, gust_of_scene
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.log import Log, LogMessage
 from fluid_sim_ros.recording.reader import open_log
@@ -34,8 +34,6 @@ _FIELDS = {
 #: the markers, which they place by /tf.
 _READ = tuple(f'{VEHICLE}/{leaf}' for leaf in _FIELDS)
 TOPICS = (*_READ, f'{VEHICLE}/wrench/thrust', f'{VEHICLE}/markers', '/tf')
-
-Array = NDArray[np.float64]
 
 
 def read_recording(path: Path) -> Recording:

@@ -9,9 +9,9 @@ mpl.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from fluid_sim_ros.demo.summary import Recording
+from fluid_sim_ros.physics.arrays import Array
 
 _STYLE: Any = {
     'font.size': 10, 'axes.grid': True, 'grid.alpha': 0.3, 'axes.spines.top': False,
@@ -24,8 +24,6 @@ _GUST_COLOR = '#F0E442'
 _SMALLEST_ERROR = 1e-2
 _AXES = ('east x', 'north y', 'up z')
 _BODY = ('forward x', 'left y', 'up z')
-
-Array = NDArray[np.float64]
 
 
 def trajectory(recording: Recording, targets: Array, path: Path) -> Path:

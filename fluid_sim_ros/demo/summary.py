@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.table import Table
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene import Scene
 
 SCENE, VEHICLE = 'quadrotor', 'x500'
@@ -16,8 +16,6 @@ SCENE, VEHICLE = 'quadrotor', 'x500'
 WAYPOINTS = ((0.0, 0.0, 1.5, 0.0, 3.0), (3.0, 2.0, 2.5, 0.6, 0.0))
 #: Settling time before an error counts as that of the hold, after a waypoint or gust [s].
 _SETTLED = 5.0
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

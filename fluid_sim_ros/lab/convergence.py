@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 from fluid_sim_ros.lab.budgeted_runs import Setting
 from fluid_sim_ros.lab.motion_errors import attitude_error, position_error
-from fluid_sim_ros.lab.problems.problem import Array, Flight, Problem, fits, fly
+from fluid_sim_ros.lab.problems.problem import Flight, Problem, fits, fly
+from fluid_sim_ros.physics.arrays import Array
 
 #: Errors of the timestep alone are taken at this share of the run: later they fold back into
 #: the size of the motion, and show no order.

@@ -33,7 +33,8 @@ from fluid_sim_ros.lab.motion_errors import (
 )
 from fluid_sim_ros.lab.parallel import side_by_side
 from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Array, Flight, Problem
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Flight, Problem
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.step_clock import whole_steps
 
 _SILENT: Report = lambda what, done, total: None  # noqa: E731 (a default of several)

@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 
 from fluid_sim_ros.lab.motion_errors import attitude_error, position_error, regime, regime_error
-from fluid_sim_ros.lab.problems.problem import VELOCITY, Array, Problem, Rung
+from fluid_sim_ros.lab.problems.problem import VELOCITY, Problem, Rung
+from fluid_sim_ros.physics.arrays import Array
 
 Metric = Callable[[Array, Array], float]  # of states and reference states, shape (n, vehicles, 13)
 

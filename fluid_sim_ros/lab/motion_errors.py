@@ -9,11 +9,11 @@ from fluid_sim_ros.lab.problems.problem import (
     POSITION,
     QUATERNION,
     VELOCITY,
-    Array,
     Flight,
     Problem,
     fly,
 )
+from fluid_sim_ros.physics.arrays import Array
 
 #: Added to every velocity at the start to see whether it grows [m/s], [rad/s].
 NUDGE = 1e-9

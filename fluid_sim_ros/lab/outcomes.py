@@ -7,7 +7,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import DivergedError
 from fluid_sim_ros.lab.problems.bodies import Body
-from fluid_sim_ros.lab.problems.problem import Array
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.simulation import Simulation
 
 #: In the order of their gravity. ``underdamped`` and ``energy loss``: T is above or below its

@@ -10,14 +10,12 @@ import struct
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError
+from fluid_sim_ros.physics.arrays import Array
 
 HEADER_SIZE = 4
 _ENDIANNESS = {b'\x00\x00': '>', b'\x00\x01': '<'}
-
-Array = NDArray[np.float64]
 
 
 class CdrReader:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.messages.cdr import (
@@ -14,12 +13,11 @@ from fluid_sim_ros.messages.cdr import (
     read_joy,
     read_stamped_pair,
 )
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.thrust_matrix import WrenchAllocation
-
-Array = NDArray[np.float64]
 
 MULTI_ARRAY = 'std_msgs/msg/Float64MultiArray'
 JOINT_STATE = 'sensor_msgs/msg/JointState'

@@ -4,16 +4,14 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.messages.topic import StateTopic
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
 from fluid_sim_ros.simulation import Simulation
-
-Array = NDArray[np.float64]
 
 MARKERS = 'visualization_msgs/msg/MarkerArray'
 _ARROW, _CUBE, _SPHERE, _CYLINDER = range(4)  # of visualization_msgs/Marker

@@ -17,7 +17,7 @@ from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
 from fluid_sim_ros.sensors.sensor import Sensor
 from fluid_sim_ros.simulation import Simulation
 
-Array = NDArray[np.float64] | NDArray[np.float32]
+Samples = NDArray[np.float64] | NDArray[np.float32]
 
 IMU = 'sensor_msgs/msg/Imu'
 MAGNETIC_FIELD = 'sensor_msgs/msg/MagneticField'
@@ -45,7 +45,7 @@ class SensorTopic(StateTopic):
         name: str,
         message: str,
         template: templates.Template,
-        sources: list[Array],
+        sources: list[Samples],
         prepare: Callable[[], None] | None = None,
     ) -> None:
         self._simulation, self._sensor = simulation, sensor
@@ -79,7 +79,7 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
         name: str,
         message: str,
         template: templates.Template,
-        *sources: Array,
+        *sources: Samples,
         prepare: Callable[[], None] | None = None,
     ) -> None:
         full = f'{vehicle}/{name}'
@@ -96,7 +96,7 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
         )
         add(sensor, name, FLUID_PRESSURE, template, sensor.values)
 
-    def distance(sensor: Rangefinder | Dvl, name: str, channel: Channel, value: Array) -> None:
+    def distance(sensor: Rangefinder | Dvl, name: str, channel: Channel, value: Samples) -> None:
         low, high = channel.range or (0.0, math.inf)
         by_sound = isinstance(sensor, Dvl)
         template = sensor_templates.distance(
@@ -108,7 +108,7 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
             prepare=lambda: np.copyto(single, value, casting='same_kind'),
         )  # fmt: skip
 
-    def velocity(sensor: Gnss | Dvl, name: str, frame: str, value: Array) -> None:
+    def velocity(sensor: Gnss | Dvl, name: str, frame: str, value: Samples) -> None:
         template = sensor_templates.velocity(frame, variance(sensor, sensor.config.velocity))
         add(sensor, name, VELOCITY, template, value)
 

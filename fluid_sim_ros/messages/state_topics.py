@@ -6,20 +6,18 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
 from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.topic import StateTopic
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps
-
-Array = NDArray[np.float64]
 
 ODOMETRY = 'nav_msgs/msg/Odometry'
 CLOCK = 'rosgraph_msgs/msg/Clock'

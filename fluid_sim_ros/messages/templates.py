@@ -13,11 +13,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fluid_sim_ros.physics.arrays import Array
+
 _STAMP = struct.Struct('<iI')
 #: Plain CDR, little endian.
 _HEADER = b'\x00\x01\x00\x00'
-
-Array = NDArray[np.float64]
 
 
 class Template:

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.new_vehicle.layout import DENSITY, Medium, Thruster
-
-Array = NDArray[np.float64]
+from fluid_sim_ros.physics.arrays import Array
 
 GRAVITY = 9.81  # [m/s^2], MuJoCo's default
 #: Osmium, the densest metal [kg/m^3] (CRC Handbook of Chemistry and Physics).

@@ -5,13 +5,12 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.base import Name, NotNegative, Positive, Strict, Vector, parse, read_yaml
 
-Array = NDArray[np.float64]
 Medium = Literal['air', 'water']
 
 #: Density of a new vehicle's medium [kg/m^3]: air at sea level, 15 degC (ISA); fresh water,

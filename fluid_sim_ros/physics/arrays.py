@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fluid_sim_ros.errors import ConfigError
 
+#: Numbers of any shape in double precision: the alias of the whole package.
 Array = NDArray[np.float64]
 Wrench = tuple[Array, Array]  # force [N], torque [N m]
 

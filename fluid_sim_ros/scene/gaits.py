@@ -2,11 +2,9 @@
 
 from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fluid_sim_ros.control.gait import JointWave
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import Gait
 from fluid_sim_ros.step_clock import NEVER, exact
@@ -36,7 +34,7 @@ class GaitCycle:
         )
         self._tick = float(1 / exact(gait.rate))
 
-    def write(self, step: int, control: NDArray[np.float64]) -> None:
+    def write(self, step: int, control: Array) -> None:
         """Write the joint commands of a step that is a multiple of the period."""
         control[self._ids] = self._wave.angles(step // self.period * self._tick)
 
@@ -67,7 +65,7 @@ class Gaits:
             self.running = tuple(name for name in self.running if name != vehicle)
             self._schedule_after(self.next_step - 1)
 
-    def write_due(self, step: int, control: NDArray[np.float64]) -> None:
+    def write_due(self, step: int, control: Array) -> None:
         """Write the commands that take effect at this step."""
         if step < self.next_step:
             return

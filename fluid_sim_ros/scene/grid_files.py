@@ -8,12 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.grid import AXES, Grid, checked_grid
-
-Array = NDArray[np.float64]
 
 #: Components of the velocity, world x y z; without w the flow is level.
 COMPONENTS = ('u', 'v', 'w')

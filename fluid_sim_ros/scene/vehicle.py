@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.schema.base import NAME_PATTERN
@@ -49,10 +50,10 @@ class Vehicle:
     dof_address: int
     thrusters: tuple[str, ...]
     thruster_ids: NDArray[np.int64]
-    thrust_range: NDArray[np.float64]
+    thrust_range: Array
     joints: tuple[str, ...]
     joint_ids: NDArray[np.int64]
-    joint_range: NDArray[np.float64]
+    joint_range: Array
     sensors: SensorsFile
 
 
@@ -175,7 +176,7 @@ def _actuator_ids(model: mujoco.MjModel, names: Sequence[str], where: str) -> ND
     return np.array(ids, dtype=np.int64)
 
 
-def _control_range(model: mujoco.MjModel, ids: NDArray[np.int64]) -> NDArray[np.float64]:
-    limits: NDArray[np.float64] = model.actuator_ctrlrange[ids].astype(float).reshape(-1, 2)
+def _control_range(model: mujoco.MjModel, ids: NDArray[np.int64]) -> Array:
+    limits: Array = model.actuator_ctrlrange[ids].astype(float).reshape(-1, 2)
     limits[model.actuator_ctrllimited[ids] == 0] = (-np.inf, np.inf)
     return limits

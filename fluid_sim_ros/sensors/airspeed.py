@@ -3,11 +3,12 @@
 import math
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import DENSITY
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import AirspeedFile
-from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 
 class Airspeed(Sensor):

@@ -7,8 +7,9 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.sensors import Channel, DvlFile, RangefinderFile, SensorFile
-from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 #: Rays step over the geoms of the vehicle's moving parts, at most this many.
 _OWN_PARTS = 64

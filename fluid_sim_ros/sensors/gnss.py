@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import GnssFile
 from fluid_sim_ros.sensors.geodesy import LocalFrame
-from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 
 class Gnss(Sensor):

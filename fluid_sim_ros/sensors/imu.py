@@ -1,8 +1,9 @@
 """The inertial measurement unit: specific force and angular rates at its place."""
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.schema.sensors import ImuFile
-from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 #: Dither of an IMU without resolution: below the noise of any, above the rounding of float32.
 _DITHER = (1e-3, 1e-4)  # [m/s^2], [rad/s]

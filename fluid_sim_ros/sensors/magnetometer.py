@@ -4,9 +4,10 @@ import numpy as np
 from pygeomag import GeoMag
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.scene import Home
 from fluid_sim_ros.schema.sensors import MagnetometerFile
-from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 #: Dither of a magnetometer without resolution [T]: 1 mG.
 _DITHER = (1e-7,)

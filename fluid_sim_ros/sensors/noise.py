@@ -10,11 +10,9 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.sensors import Channel
-
-Array = NDArray[np.float64]
 
 #: Readings whose random numbers are drawn at once.
 BLOCK = 256

@@ -1,6 +1,7 @@
 """Barometer and water pressure sensor: the static pressure of what is around them."""
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import (
     pressure_altitude,
     standard_pressure,
@@ -8,7 +9,7 @@ from fluid_sim_ros.physics.environment.atmosphere import (
 )
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import BarometerFile, PressureFile
-from fluid_sim_ros.sensors.sensor import Array, Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 #: Dither of a pressure sensor without resolution [Pa]: 8 cm of air, 0.1 mm of water.
 _DITHER = (1.0,)

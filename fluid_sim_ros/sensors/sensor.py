@@ -8,17 +8,15 @@ from typing import ClassVar
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.sensors import Channel, SensorFile
 from fluid_sim_ros.sensors.noise import Errors
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps, whole_steps
-
-Array = NDArray[np.float64]
 
 #: Linear and angular velocity lie side by side.
 _VELOCITIES = slice(nat.LINEAR_VELOCITY.start, nat.ANGULAR_VELOCITY.stop)

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 WRENCH_FRAMES = ('base_link', 'map')
 
 

@@ -2,7 +2,6 @@
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import DivergedError
 from fluid_sim_ros.plugins import native as nat
@@ -10,7 +9,6 @@ from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.engine import divergence
 from fluid_sim_ros.step_clock import StepClock
 
-Array = NDArray[np.float64]
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 

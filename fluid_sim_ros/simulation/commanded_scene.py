@@ -4,18 +4,15 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.scene import CompiledScene
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.simulation.actuation import CommandedWrench, Controls, finite
 from fluid_sim_ros.simulation.engine import Engine
 from fluid_sim_ros.simulation.wind_and_current import Streams
-
-Array = NDArray[np.float64]
 
 
 class CommandedScene:

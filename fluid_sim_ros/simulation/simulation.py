@@ -5,10 +5,9 @@ from fractions import Fraction
 from pathlib import Path
 
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError, ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.schedule import Event
@@ -19,8 +18,6 @@ from fluid_sim_ros.simulation.engine import EnergyBalance, Largest
 from fluid_sim_ros.simulation.snapshot import ForceTorque, Snapshot, VehicleState
 from fluid_sim_ros.simulation.wind_and_current import SavedStreams
 from fluid_sim_ros.step_clock import Pace, StepClock, exact
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

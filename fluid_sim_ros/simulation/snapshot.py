@@ -3,10 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from fluid_sim_ros.physics.arrays import Array
 
-Array = NDArray[np.float64]
 #: Force [N] and torque [N m], base_link axes, about the base_link origin, acting on the vehicle.
 ForceTorque = tuple[Array, Array]
 

@@ -4,14 +4,13 @@ from collections.abc import Sequence
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.errors import CommandError, ConfigError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.scene.vehicle import Vehicle, is_reaction_torque
 
-Array = NDArray[np.float64]
 _THRUSTER = 'fluid_sim.thruster'
 #: A wrench is met when it is off by less than this share of what was asked.
 _MET = 1e-6

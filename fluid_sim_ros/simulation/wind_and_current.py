@@ -3,14 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.scene.media import MEDIUM, OPTION
 from fluid_sim_ros.simulation.engine import Engine
 
-Array = NDArray[np.float64]
 STREAMS = ('wind', 'current')
 
 

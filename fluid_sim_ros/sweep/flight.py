@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
@@ -36,7 +36,6 @@ COLUMNS = (
 MOTION = slice(nat.POSITION.start, nat.ANGULAR_VELOCITY.stop)
 
 Row = dict[str, Any]
-Array = NDArray[np.float64]
 
 
 @dataclasses.dataclass

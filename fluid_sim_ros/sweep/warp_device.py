@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.simulation import Simulation
 
-Array = NDArray[np.float64]
 PRECISION = 'float32'
 
 

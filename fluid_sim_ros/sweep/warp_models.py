@@ -7,9 +7,9 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.sweep.sweep_file import SweepFile
@@ -104,7 +104,7 @@ def batched_fields(model_type: Any) -> list[str]:
     return [name for name, shape in shapes.items() if shape and shape[0] == '*']
 
 
-Worlds = NDArray[np.float64]
+Worlds = Array
 
 
 def motion_of(simulation: Simulation, qpos: Worlds, qvel: Worlds) -> Worlds:

@@ -6,8 +6,9 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.step_clock import StepClock
-from fluid_sim_ros.sweep.flight import Array, Flights, Ready, Row, columns, row_begun, start
+from fluid_sim_ros.sweep.flight import Flights, Ready, Row, columns, row_begun, start
 from fluid_sim_ros.sweep.results import Portion
 from fluid_sim_ros.sweep.sweep_file import SweepFile, Value
 from fluid_sim_ros.sweep.warp_device import Device, Worlds, state_fields

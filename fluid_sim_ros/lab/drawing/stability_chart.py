@@ -14,8 +14,8 @@ from fluid_sim_ros.lab.drawing.style import STYLE, save_figure
 from fluid_sim_ros.lab.outcomes import FATES, TOLERANCE
 from fluid_sim_ros.lab.problems.bodies import AXES, family
 from fluid_sim_ros.lab.problems.boundaries import predicted
-from fluid_sim_ros.lab.problems.problem import Array
 from fluid_sim_ros.lab.stability import values
+from fluid_sim_ros.physics.arrays import Array
 
 _LINES = {'sign flip': ':', 'growth': '--'}
 

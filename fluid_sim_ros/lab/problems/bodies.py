@@ -14,7 +14,7 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.problems.closed_forms import keyframe, scene_of
 from fluid_sim_ros.lab.problems.mjcf import body_plugin, ellipsoid, free_body, world
-from fluid_sim_ros.lab.problems.problem import Array
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
 from fluid_sim_ros.scene import Scene
 

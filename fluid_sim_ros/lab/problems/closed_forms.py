@@ -14,10 +14,10 @@ from fluid_sim_ros.lab.problems.problem import (
     QUATERNION,
     STATE_WIDTH,
     TIMESTEPS,
-    Array,
     Problem,
     Rung,
 )
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.kappa import ellipsoid_volume
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.scene import VehicleFile

@@ -5,7 +5,8 @@ from scipy.integrate import solve_ivp
 
 from fluid_sim_ros.lab.problems.closed_forms import G, keyframe, level_states, scene_of
 from fluid_sim_ros.lab.problems.mjcf import body_plugin, text, world
-from fluid_sim_ros.lab.problems.problem import TIMESTEPS, Array, Problem, Rung
+from fluid_sim_ros.lab.problems.problem import TIMESTEPS, Problem, Rung
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.falling_plate import PlateParams, falling_plate_rhs
 
 A, BETA, FLUID = 0.05, 0.02, 1000.0  # half width [m], b/a [-], [kg/m^3]

@@ -5,16 +5,14 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, DivergedError, ModelError
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.fluid_models import has_body_plugins
 from fluid_sim_ros.schema.settings import FLUID_RUNGS
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact, whole_steps
-
-Array = NDArray[np.float64]
 
 #: Every integrator of MuJoCo 4.0.0.
 INTEGRATORS = ('Euler', 'RK4', 'implicit', 'implicitfast', 'discrete')

@@ -12,7 +12,8 @@ from fluid_sim_ros.lab.problems.closed_forms import (
     scene_of,
 )
 from fluid_sim_ros.lab.problems.mjcf import body_plugin, config, free_body, text, world
-from fluid_sim_ros.lab.problems.problem import Array, Problem, Rung
+from fluid_sim_ros.lab.problems.problem import Problem, Rung
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.foil import WingParams, wing_wrench
 from fluid_sim_ros.physics.fossen import damping_wrench
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume

@@ -10,11 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
-
-Array = NDArray[np.float64]
 
 _STYLE: Any = {
     'font.size': 9, 'axes.grid': True, 'grid.alpha': 0.3, 'axes.spines.top': False,

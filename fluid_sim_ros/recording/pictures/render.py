@@ -8,9 +8,9 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.log import Log
@@ -19,8 +19,6 @@ from fluid_sim_ros.recording.pictures.tracks import Track, read_tracks
 from fluid_sim_ros.recording.pictures.water import add_waves
 from fluid_sim_ros.scene.vehicle import weight_in_air
 from fluid_sim_ros.simulation import Simulation
-
-Array = NDArray[np.float64]
 
 #: Arrow per recorded wrench: colour (red, green, blue, opacity); the same as the node's markers.
 _ARROWS = {'total': (0.1, 0.5, 0.9, 1.0), 'thrust': (0.9, 0.5, 0.1, 1.0)}

@@ -5,12 +5,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.output.html_page import write_page
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
-
-Array = NDArray[np.float64]
 
 _TEMPLATE = Path(__file__).with_name('report.html')
 #: Points per line; a screen shows fewer.

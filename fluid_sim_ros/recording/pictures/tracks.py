@@ -4,13 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.log import Log
-
-Array = NDArray[np.float64]
 
 _ODOMETRY, _WRENCH = 'nav_msgs/msg/Odometry', 'geometry_msgs/msg/WrenchStamped'
 

@@ -2,11 +2,9 @@
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.native import native
-
-Array = NDArray[np.float64]
 
 #: Triangles per side of the patch / 2, and the size of a cell in extents of the vehicle.
 _CELLS, _CELL = 48, 0.5
