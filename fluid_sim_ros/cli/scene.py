@@ -10,7 +10,7 @@ from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.media import MEDIUM, OPTION
 from fluid_sim_ros.simulation import Simulation
 
-_ROADS = {
+_SOURCES = {
     OPTION: 'one velocity for the whole scene',
     MEDIUM: 'each body meets the flow of its place and time',
 }
@@ -22,12 +22,12 @@ def examine_scene(scene: str | Path) -> list[Row]:
         simulation = Simulation(scene)
     except FluidSimError as error:
         return [Row('scene', 'broken', str(error), 'mend the named file')]
-    road = simulation.flow_road
+    source = simulation.flow_source
     stated = simulation.scene
     return [
         Row('scene', 'ok', f'{stated.name}, {stated.model_path.name}'),
         Row('vehicles', 'ok', listed(simulation.vehicles)),
-        Row('flow', 'ok', f'{road}: {_ROADS[road]}'),
+        Row('flow', 'ok', f'{source}: {_SOURCES[source]}'),
         *(
             Row(name, 'ok', _models(getattr(stated, name)))
             for name in simulation.streams

@@ -78,7 +78,7 @@ class RecorderOptions:
     chunk_s: float = 1.0
 
 
-class Tap(Protocol):
+class RecorderPort(Protocol):
     """Takes what is recorded; every method runs in the stepping thread."""
 
     fault: str
@@ -107,7 +107,7 @@ class Tap(Protocol):
 
 def open_recorder(
     simulation: Simulation, topics: Sequence[RecordedTopic], options: RecorderOptions
-) -> Tap:
+) -> RecorderPort:
     """
     Begin to record a simulation.
 
@@ -121,7 +121,7 @@ def open_recorder(
     """
     with needed_for('recording'):
         part = import_module(_PART)
-    tap: Tap = part.open_recorder(simulation, topics, options)
+    tap: RecorderPort = part.open_recorder(simulation, topics, options)
     return tap
 
 

@@ -80,13 +80,13 @@ class MarkerTopic(StateTopic):
     The markers of one vehicle.
 
     Force arrows start at the base_link origin; a force equal to the vehicle's weight in air is
-    drawn 1 m long. Made for eyes: the node publishes them at their rate of wall time at most,
+    drawn 1 m long. Made for display: the node publishes them at their rate of wall time at most,
     and the numbers are rounded to single precision, which halves their share of a log.
     """
 
     depth = 1
     transient_local = True
-    for_eyes = True
+    for_display = True
 
     def __init__(
         self, simulation: Simulation, vehicle: Vehicle, row: Array, stamp: memoryview, period: int

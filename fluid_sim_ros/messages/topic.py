@@ -24,7 +24,7 @@ class StateTopic:
         Its numbers need ``observe(forces=True)``.
     reliable, depth, transient_local
         Quality of service that is offered.
-    for_eyes
+    for_display
         Published at its rate of wall time at most, and also while the simulation stands.
     appears_later
         What it measures at one due step may stand in the message of another.
@@ -42,7 +42,7 @@ class StateTopic:
     reliable: ClassVar[bool] = True
     depth: ClassVar[int] = 10
     transient_local: ClassVar[bool] = False
-    for_eyes: ClassVar[bool] = False
+    for_display: ClassVar[bool] = False
     appears_later: bool = False
 
     def data(self) -> bytes:

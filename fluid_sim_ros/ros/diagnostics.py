@@ -15,7 +15,7 @@ from fluid_sim_ros.errors import listed
 from fluid_sim_ros.loop.autopilot_port import Bridge
 from fluid_sim_ros.loop.grid_watch import GridWatch
 from fluid_sim_ros.loop.pacing import Lockstep, RealTime
-from fluid_sim_ros.loop.recorder_port import Tap
+from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
@@ -84,7 +84,7 @@ class Diagnostics:
         self._inputs = inputs
         self._graph = graph
         self._suites = suites
-        self.tap: Tap | None = None
+        self.tap: RecorderPort | None = None
         self.bridge: Bridge | None = None
         self.record = -1
         self._publisher = node.create_publisher(
@@ -192,7 +192,7 @@ class Diagnostics:
             'kinetic_energy_J': f'{balance.kinetic:.6g}',
             'integrator_feed_W': f'{balance.feed:.3g}',
             'dissipation_W': f'{balance.dissipation:.3g}',
-            'flow_by': self._simulation.flow_road,
+            'flow_by': self._simulation.flow_source,
             'seed': self._simulation.seed,
             **counts,
         }
@@ -207,7 +207,7 @@ class Diagnostics:
         faults = self._graph.faults
         return self._status('graph', _ERROR if faults else _OK, '; '.join(faults) or 'alone')
 
-    def _recording(self, tap: Tap) -> DiagnosticStatus:
+    def _recording(self, tap: RecorderPort) -> DiagnosticStatus:
         values = {
             'file': tap.paths[-1], 'messages': tap.written, 'left out (disk too slow)': tap.dropped
         }  # fmt: skip

@@ -14,7 +14,7 @@ from sensor_msgs.msg import JointState, Joy
 from std_msgs.msg import Float64MultiArray
 
 from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
-from fluid_sim_ros.loop.recorder_port import Tap
+from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.messages.commands import (
     JOINT_STATE,
     JOY,
@@ -75,7 +75,7 @@ class Inputs:
         self._report = report
         self._by_count = settings['lockstep.match'] == 'count'
         self._group = PolledGroup()
-        self.tap: Tap | None = None
+        self.tap: RecorderPort | None = None
         self.saturated = 0
         self.ignored_answers = 0
         self.stale = StaleCommands(simulation, settings, report)

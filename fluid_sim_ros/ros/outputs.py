@@ -27,7 +27,7 @@ from sensor_msgs.msg import (
 )
 from visualization_msgs.msg import MarkerArray
 
-from fluid_sim_ros.loop.recorder_port import Tap
+from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
 from fluid_sim_ros.messages.marker_topics import MARKERS
 from fluid_sim_ros.messages.sensor_topics import (
@@ -99,10 +99,10 @@ class Outputs:
             Topic(state, self._publisher(state), node.resolve_topic_name(state.name))
             for state in self._states.topics
         ]
-        self.tap: Tap | None = None
+        self.tap: RecorderPort | None = None
         self._clock = next(topic for topic in self.topics if topic.state.type == CLOCK)
         self._active: list[Topic] = []
-        self._for_eyes = [topic for topic in self.topics if topic.state.for_eyes]
+        self._for_display = [topic for topic in self.topics if topic.state.for_display]
         self._show_period = 1.0 / settings['markers.rate']
         self._show_due = 0.0
         self._refreshed_at = -math.inf
@@ -170,7 +170,7 @@ class Outputs:
         if now < self._show_due - 0.5 * self._show_period:
             return
         tick = simulation.tick
-        due = [t for t in self._for_eyes if stands or tick % t.period == 0]
+        due = [t for t in self._for_display if stands or tick % t.period == 0]
         wanted = [t for t in due if t.publisher.get_subscription_count()]
         if due:
             self._show_due = max(self._show_due + self._show_period, now)
@@ -186,8 +186,8 @@ class Outputs:
         for topic in self.topics:
             publisher = topic.publisher
             heard = publisher is not None and publisher.get_subscription_count() > 0
-            topic.subscribed = heard and not topic.state.for_eyes
-            if heard and topic.state.for_eyes:
+            topic.subscribed = heard and not topic.state.for_display
+            if heard and topic.state.for_display:
                 shown.append(topic)
         self._active = [t for t in self.topics if t.subscribed or t.record >= 0]
         self.period = math.gcd(

@@ -9,7 +9,7 @@ from rclpy.node import Node
 from fluid_sim_ros.loop.recorder_port import (
     RecordedTopic,
     RecorderOptions,
-    Tap,
+    RecorderPort,
     open_recorder,
     selected,
 )
@@ -29,7 +29,7 @@ def start_recording(
     inputs: Inputs,
     outputs: Outputs,
     diagnostics: Diagnostics,
-) -> Tap | None:
+) -> RecorderPort | None:
     """
     Begin to record what the parameters ask for; None when they ask for nothing.
 

@@ -163,7 +163,7 @@ class Scene:
         if fluid is not None:
             force_fluid(spec, fluid, self.model_path)
         if self.waves is not None and fluid in (None, 'no_added_mass'):  # others: no surface
-            _raise_waves(spec, self.waves.keys(seed), self.name)
+            _add_waves(spec, self.waves.keys(seed), self.name)
         if fluid != 'none':
             apply_weather(spec, self.wind, self.current, seed, self.name)
         model = compile_spec(spec, self.model_path)
@@ -269,7 +269,7 @@ def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
     return parse(VehicleFile, read_yaml(path), path)
 
 
-def _raise_waves(spec: mujoco.MjSpec, keys: dict[str, str], name: str) -> None:
+def _add_waves(spec: mujoco.MjSpec, keys: dict[str, str], name: str) -> None:
     media = [p for p in spec.plugins if p.plugin_name == 'fluid_sim.medium' and p.name]
     if not media:
         raise ConfigError(

@@ -12,7 +12,7 @@ from fluid_sim_ros.step_clock import StepClock
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
-class ManyRuns:
+class BatchRuns:
     """
     Runs that differ by their start and their commands only, to the bits of ``Simulation.step``.
 

@@ -12,7 +12,7 @@ from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.simulation.actuation import CommandedWrench, Controls, finite
 from fluid_sim_ros.simulation.engine import Engine
-from fluid_sim_ros.simulation.wind_and_current import Streams
+from fluid_sim_ros.simulation.wind_and_current import WindAndCurrent
 
 
 class CommandedScene:
@@ -33,7 +33,7 @@ class CommandedScene:
         self._vehicles = compiled.vehicles
         self._gaits = compiled.gaits
         self._engine = Engine(compiled.model, [v.body_id for v in self._vehicles.values()])
-        self._streams = Streams(self._engine, compiled.streams)
+        self._streams = WindAndCurrent(self._engine, compiled.streams)
         self._model, self._data = self._engine.model, self._engine.data
         self._wrenches: dict[str, CommandedWrench] = {}
         control = self._data.ctrl
@@ -66,14 +66,14 @@ class CommandedScene:
         return self._streams.available
 
     @property
-    def flow_road(self) -> str:
+    def flow_source(self) -> str:
         """
         How wind and current reach the bodies.
 
         ``opt.wind``: one velocity for the whole scene. ``fluid_sim.medium``: each body meets its
         own, by place and time.
         """
-        return self._streams.road
+        return self._streams.source
 
     @property
     def vehicles(self) -> Mapping[str, Vehicle]:

@@ -22,7 +22,7 @@ class SavedStreams:
     enabled: bool
 
 
-class Streams:
+class WindAndCurrent:
     """
     The wind and the current of a scene.
 
@@ -64,7 +64,7 @@ class Streams:
         self._write()
 
     @property
-    def road(self) -> str:
+    def source(self) -> str:
         """How the flow reaches the bodies: ``fluid_sim.medium`` or ``opt.wind``."""
         return MEDIUM if self._has_medium else OPTION
 

@@ -12,7 +12,7 @@ from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.simulation.batch import ManyRuns
+from fluid_sim_ros.simulation.batch import BatchRuns
 from fluid_sim_ros.simulation.engine import Largest
 from fluid_sim_ros.simulation.plant import plant_of
 from fluid_sim_ros.step_clock import whole_steps
@@ -53,7 +53,7 @@ class Ready:
     holding: Holding | None
     largest: Largest
     columns: tuple[str, ...]
-    many: ManyRuns | None
+    many: BatchRuns | None
 
 
 class Flights:
@@ -192,7 +192,7 @@ class Flights:
         if sweep.hold is None or self._plant is None:
             period = max(1, round(1.0 / (sweep.sample_rate * timestep)))
             undisturbed = simulation.next_change >= steps
-            many = ManyRuns(simulation, steps, period, LARGEST_PORTION) if undisturbed else None
+            many = BatchRuns(simulation, steps, period, LARGEST_PORTION) if undisturbed else None
             return Ready(simulation, steps, period, None, simulation.largest(), names, many)
         plant, vehicle = self._plant
         holds = holding(sweep.hold, plant, vehicle.name, simulation)

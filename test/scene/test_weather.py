@@ -48,7 +48,7 @@ def felt(simulation):
 
 def test_one_steady_velocity_takes_the_cheap_road(scene):
     simulation = Simulation(scene('wind: {model: steady, velocity: [3, 1, 0]}'))
-    assert simulation.flow_road == OPTION
+    assert simulation.flow_source == OPTION
     assert simulation.model.nplugin == 0
     np.testing.assert_array_equal(felt(simulation), [3, 1, 0])
     simulation.set_wind([1, 0, 0])
@@ -66,7 +66,7 @@ def test_one_steady_velocity_takes_the_cheap_road(scene):
 )
 def test_everything_else_is_local(scene, weather):
     simulation = Simulation(scene(weather))
-    assert simulation.flow_road == MEDIUM
+    assert simulation.flow_source == MEDIUM
 
 
 def test_profiles_count_from_the_ground(scene):
@@ -170,8 +170,8 @@ def test_saved_states_go_on_to_the_bit(scene):
 def test_the_weather_blows_on_every_rung(scene):
     path = scene(f'wind: {{{DRYDEN}}}')
     for rung in ('inertia', 'ellipsoid'):
-        assert Simulation(path, fluid=rung).flow_road == MEDIUM
-    assert Simulation(path, fluid='none').flow_road == OPTION
+        assert Simulation(path, fluid=rung).flow_source == MEDIUM
+    assert Simulation(path, fluid='none').flow_source == OPTION
 
 
 def test_the_doctor_says_which_road(scene):
