@@ -1,5 +1,5 @@
 """
-Where integration fails: boundaries that theory predicts, fates, watchdogs, maps.
+Where integration fails: boundaries that theory predicts, outcomes, watchdogs, maps.
 
 The drag number x = h K |v|/(m + m_A) of each predicted boundary, measured by bisection of one
 step; bodies on which one integrator fails and another survives, with what the watchdogs say of
@@ -16,7 +16,7 @@ from common import RESULTS, ROOT, arguments, write
 
 from fluid_sim_ros.lab.drawing.stability_chart import draw_map
 from fluid_sim_ros.lab.false_alarms import random_run
-from fluid_sim_ros.lab.outcomes import fate
+from fluid_sim_ros.lab.outcomes import outcome
 from fluid_sim_ros.lab.problems.bodies import FAMILIES, Body, family
 from fluid_sim_ros.lab.problems.boundaries import EXPLICIT
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS
@@ -54,15 +54,15 @@ def boundaries() -> dict[str, Any]:
 
 
 def failures() -> dict[str, Any]:
-    """Return the fate of each integrator on each of SCENES."""
+    """Return the outcome of each integrator on each of SCENES."""
     out: dict[str, Any] = {}
     for name, (kind, changes, timestep) in SCENES.items():
         body = family(kind).body.with_values(changes)
-        found = {each: fate(body, each, timestep) for each in INTEGRATORS}
+        found = {each: outcome(body, each, timestep) for each in INTEGRATORS}
         words = {each: result.word for each, result in found.items()}
         out[name] = {
             'timestep_s': timestep,
-            'fates': words,
+            'outcomes': words,
             'one_fails_another_survives': len({'stable', *words.values()}) > 1
             and 'stable' in words.values(),
             'silent': [each for each, word in words.items() if word in SILENT],
@@ -80,14 +80,14 @@ def false_alarms(runs: int) -> dict[str, Any]:
     called, alarmed = 0, 0
     for _ in range(runs):
         body, integrator, timestep = random_run(rng)
-        found = fate(body, integrator, timestep)
+        found = outcome(body, integrator, timestep)
         called += found.word != 'stable'
         alarmed += bool(found.alarm)
     return {'runs': runs, 'not_called_stable': called, 'alarms': alarmed}
 
 
 def maps() -> dict[str, Any]:
-    """Run and draw the maps; return how many cells have which fate."""
+    """Run and draw the maps; return how many cells have which outcome."""
     out: dict[str, Any] = {}
     for name, ranges in MAPS.items():
         head = plan(name, cells=CELLS, **ranges)
@@ -96,7 +96,9 @@ def maps() -> dict[str, Any]:
             result['largest_steps'] = largest_steps(head)
         draw_map(result, RESULTS / f'lab_stability_{name}.png')
         out[name] = {
-            kind: dict(Counter(row['fate'] for row in result['map'] if row['integrator'] == kind))
+            kind: dict(
+                Counter(row['outcome'] for row in result['map'] if row['integrator'] == kind)
+            )
             for kind in INTEGRATORS
         }
         print(name, out[name])
@@ -121,7 +123,7 @@ def main() -> None:
     worst = max(row['worst'] for rows in by_kind for row in rows.values())
     print(f'boundaries met within {worst:.2g}')
     for name, row in out['failures'].items():
-        print(f'{name}: {row["fates"]}')
+        print(f'{name}: {row["outcomes"]}')
     print('false alarms:', out['false_alarms'])
     if not options.quick:
         out['maps'] = maps()

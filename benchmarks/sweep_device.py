@@ -20,11 +20,11 @@ from typing import Any
 
 from common import arguments, write
 
+from fluid_sim_ros.sweep.case_runs import CaseRunner
 from fluid_sim_ros.sweep.compare import against_cpu
-from fluid_sim_ros.sweep.flight import Flights
-from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.run_sweep import run_sweep
 from fluid_sim_ros.sweep.sweep_file import SweepFile
-from fluid_sim_ros.sweep.warp_device import PRECISION, Device
+from fluid_sim_ros.sweep.warp_device import PRECISION, WarpDevice
 
 _SWEEPS: dict[str, dict[str, Any]] = {
     'sphere': {
@@ -56,7 +56,7 @@ def fly(keys: dict[str, Any], **how: Any) -> tuple[dict[str, Any], Any]:
     import pyarrow.parquet as pq
 
     with tempfile.TemporaryDirectory() as folder:
-        result = conduct(SweepFile.model_validate(keys), Path(folder), **how)
+        result = run_sweep(SweepFile.model_validate(keys), Path(folder), **how)
         return result, pq.read_table(result['table'])
 
 
@@ -64,7 +64,7 @@ def error_of(keys: dict[str, Any], device: str, runs: int, seconds: float) -> di
     """Return how far the device is from the processor, in all runs."""
     keys = {**keys, 'runs': runs, 'duration': seconds, 'seed': 1}
     _, table = fly(keys, device=device)
-    check = against_cpu(Flights(SweepFile.model_validate(keys)), table, most=runs)
+    check = against_cpu(CaseRunner(SweepFile.model_validate(keys)), table, most=runs)
     return {'duration_s': seconds, **check}
 
 
@@ -73,7 +73,7 @@ def throughput(device: str, worlds: int, rounds: int, seconds: float) -> dict[st
     # without masses: threads would compile a model for each run, which is another question
     vary = {k: v for k, v in _SWEEPS[_TIMED]['vary'].items() if not k.startswith('mass.')}
     keys = {**_SWEEPS[_TIMED], 'vary': vary, 'runs': worlds, 'duration': seconds}
-    simulation_steps = Flights(SweepFile.model_validate(keys)).check()
+    simulation_steps = CaseRunner(SweepFile.model_validate(keys)).check()
     on = {'device': {'device': device, 'workers': worlds}, 'threads': {}}
     fly({**keys, 'duration': _WARM_UP}, **on['device'])  # kernels are compiled
     walls: dict[str, list[float]] = {name: [] for name in on}
@@ -96,7 +96,7 @@ def throughput(device: str, worlds: int, rounds: int, seconds: float) -> dict[st
 def main() -> None:
     """Measure and write the result."""
     options = arguments(__doc__, 'sweep_device', more={'device': 'device of Warp'})
-    wp = Device('cpu').wp
+    wp = WarpDevice('cpu').wp
     name = options.device or ('cuda:0' if wp.is_cuda_available() else 'cpu')
     device = wp.get_device(name)
     runs, seconds, rounds = (4, 0.2, 1) if options.quick else (32, 2.0, 3)

@@ -28,7 +28,7 @@ import numpy as np
 from common import arguments, write
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.run_sweep import run_sweep
 from fluid_sim_ros.sweep.sweep_file import SweepFile
 
 _SECONDS = 1.0
@@ -71,7 +71,7 @@ def swept(workers: int) -> Callable[[int], None]:
             'vary': {'current.x': {'normal': [0, 0.5]}},
         })  # fmt: skip
         with tempfile.TemporaryDirectory() as folder:
-            result = conduct(sweep, Path(folder), workers=workers)
+            result = run_sweep(sweep, Path(folder), workers=workers)
         if result['status'] != {'ok': runs}:
             raise SystemExit(f'runs ended badly: {result["status"]}')
 

@@ -186,7 +186,7 @@ def _stability(arguments: argparse.Namespace, show: Show) -> int:
 
     from fluid_sim_ros.lab import results, stability
     from fluid_sim_ros.lab.drawing.stability_chart import draw_map
-    from fluid_sim_ros.lab.outcomes import FATES
+    from fluid_sim_ros.lab.outcomes import OUTCOMES
     from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 
     if not arguments.problem:
@@ -206,10 +206,10 @@ def _stability(arguments: argparse.Namespace, show: Show) -> int:
     result['files'] = [str(stem.with_suffix(suffix)) for suffix in ('.jsonl', '.json', '.png')]
     draw_map(result, stem.with_suffix('.png'))
     results.save(result, stem.with_suffix('.json'))
-    table = Table('integrator', *FATES, title=f'{head["problem"]}: cells by fate')
+    table = Table('integrator', *OUTCOMES, title=f'{head["problem"]}: cells by outcome')
     for integrator in head['integrators']:
-        words = [row['fate'] for row in result['map'] if row['integrator'] == integrator]
-        table.add_row(integrator, *(str(words.count(word)) for word in FATES))
+        words = [row['outcome'] for row in result['map'] if row['integrator'] == integrator]
+        table.add_row(integrator, *(str(words.count(word)) for word in OUTCOMES))
     show(arguments.json, Group(table, escape('\n'.join(result['files']))), result)
     return 0
 

@@ -36,7 +36,7 @@ def add_parser(commands: Any, show: Show) -> None:
 def _sweep(arguments: argparse.Namespace, show: Show) -> int:
     from rich.markup import escape
 
-    from fluid_sim_ros.sweep.run_sweep import conduct
+    from fluid_sim_ros.sweep.run_sweep import run_sweep
     from fluid_sim_ros.sweep.sweep_file import read_sweep
 
     sweep = read_sweep(arguments.file)
@@ -45,7 +45,7 @@ def _sweep(arguments: argparse.Namespace, show: Show) -> int:
         # Warp compiles kernels before the first step, a minute in a fresh cache
         what = f'runs on {arguments.device} (kernels are compiled first)'
         task = progress.add_task(escape(what) if arguments.device else 'runs', total=None)
-        result = conduct(
+        result = run_sweep(
             sweep, out, workers=arguments.workers, ray_address=arguments.ray,
             device=arguments.device,
             report=lambda done, total: progress.update(task, completed=done, total=total),

@@ -6,13 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.budgeted_runs import Setting, Trials
+from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns, Setting
 from fluid_sim_ros.lab.cost import Curve, Report, StepCost, step_costs
 from fluid_sim_ros.lab.manoeuvre import judged_part
 from fluid_sim_ros.lab.measure import conditions
 from fluid_sim_ros.lab.metrics import METRICS, metric
 from fluid_sim_ros.lab.pareto import tie
-from fluid_sim_ros.lab.problems.problem import Problem, fits, fly, of_scene
+from fluid_sim_ros.lab.problems.problem import Problem, fits, of_scene, run_rung
 from fluid_sim_ros.lab.reference import Reference, find_reference
 from fluid_sim_ros.lab.search import LADDER, Candidate, search, with_limit
 from fluid_sim_ros.scene import Scene
@@ -69,16 +69,16 @@ def advise(
     first = max((h for h in problem.timesteps if h <= own), default=problem.timesteps[-1])
     judged = judged_part(problem, first)
     problem = replace(problem, duration=judged.duration)
-    trials = Trials(problem, budget)
-    reference = find_reference(trials, first, tolerance, metric_name, report)
+    budgeted = BudgetedRuns(problem, budget)
+    reference = find_reference(budgeted, first, tolerance, metric_name, report)
     candidates: list[Candidate] = []
     refused: list[dict[str, Any]] = []
     if reference.known(tolerance):
-        candidates, refused = search(trials, reference, tolerance, report)
+        candidates, refused = search(budgeted, reference, tolerance, report)
     baseline = _baseline(problem, candidates)
     costs = _costs(problem, [each.setting for each in candidates] + [baseline], report)
     ranked = _ranked(candidates, costs, list(problem.rungs))
-    ranked[:2] = [with_limit(trials, reference, each) for each in ranked[:2]]
+    ranked[:2] = [with_limit(budgeted, reference, each) for each in ranked[:2]]
     described = [_described(each, costs) for each in ranked]
     its_cost = _cost(costs, baseline)
     return {
@@ -100,13 +100,13 @@ def advise(
         'runner_up': described[1] if len(ranked) > 1 else None,
         'candidates': described,
         'refused': refused,
-        'tried': trials.tried,
-        'not_tried': trials.not_tried,
+        'tried': budgeted.tried,
+        'not_tried': budgeted.not_tried,
         'baseline': {**baseline._asdict(), **its_cost},
         'cheaper_than_baseline': (
             its_cost['cpu_us_per_s'] / described[0]['cpu_us_per_s'] if ranked else None
         ),
-        'missing': '' if ranked else _missing(trials, refused, reference, tolerance),
+        'missing': '' if ranked else _missing(budgeted, refused, reference, tolerance),
         'conditions': conditions(),
     }
 
@@ -117,8 +117,10 @@ def verify(scene: str | Scene, advice: dict[str, Any]) -> dict[str, Any]:
     problem = _problem(scene, advice['duration_s'], advice['rate_hz'])
     rungs = list(problem.rungs)
     richer = rungs[min(rungs.index(choice['rung']) + 1, len(rungs) - 1)]
-    chosen = fly(problem, problem.rungs[choice['rung']], choice['integrator'], choice['timestep'])
-    finer = fly(problem, problem.rungs[richer], choice['integrator'], choice['timestep'] / 4)
+    chosen = run_rung(
+        problem, problem.rungs[choice['rung']], choice['integrator'], choice['timestep']
+    )
+    finer = run_rung(problem, problem.rungs[richer], choice['integrator'], choice['timestep'] / 4)
     lost = chosen.fault or finer.fault
     error = math.inf
     if not lost:
@@ -248,10 +250,13 @@ def _described(candidate: Candidate, costs: Costs) -> dict[str, Any]:
 
 
 def _missing(
-    trials: Trials, refused: Sequence[dict[str, Any]], reference: Reference, tolerance: float
+    budgeted: BudgetedRuns,
+    refused: Sequence[dict[str, Any]],
+    reference: Reference,
+    tolerance: float,
 ) -> str:
     """Return one line on what stands between the scene and the tolerance."""
-    late = any('budget' in row['why'] for row in trials.not_tried)
+    late = any('budget' in row['why'] for row in budgeted.not_tried)
     more = ', or a larger --budget' if late else ''
     setting = reference.setting
     if not reference.known(tolerance):
@@ -266,6 +271,6 @@ def _missing(
     best = min(tried, key=lambda row: float(row['error']))
     return (
         f'the closest is {best["rung"]} by {best["integrator"]} at {best["timestep"]:g} s with '
-        f'{best["error"]:.2g}: a timestep below {trials.problem.timesteps[-1]:g} s is '
+        f'{best["error"]:.2g}: a timestep below {budgeted.problem.timesteps[-1]:g} s is '
         f'needed{more}'
     )

@@ -4,7 +4,7 @@ import math
 import time
 from typing import Any, NamedTuple
 
-from fluid_sim_ros.lab.problems.problem import Flight, Problem, fly
+from fluid_sim_ros.lab.problems.problem import Problem, Trajectory, run_rung
 
 
 class Setting(NamedTuple):
@@ -20,7 +20,7 @@ class Setting(NamedTuple):
         return (4 if self.integrator == 'RK4' else 1) / self.timestep
 
 
-class Trials:
+class BudgetedRuns:
     """
     Flies settings of one problem, each once, as long as the time lasts.
 
@@ -37,33 +37,33 @@ class Trials:
         self.problem = problem
         self.tried: list[dict[str, Any]] = []
         self.not_tried: list[dict[str, Any]] = []
-        self._flights: dict[Setting, Flight] = {}
+        self._trajectories: dict[Setting, Trajectory] = {}
         self._end = time.perf_counter() + budget
         self._pace = 0.0  # slowest evaluation yet [s]
 
-    def fly(self, setting: Setting, share: float = 1.0) -> Flight | None:
+    def run(self, setting: Setting, share: float = 1.0) -> Trajectory | None:
         """
         Run a setting; None where that would take more than ``share`` of the time left.
 
         The first run is always made: how long one takes is not known before.
         """
-        if setting in self._flights:
-            return self._flights[setting]
+        if setting in self._trajectories:
+            return self._trajectories[setting]
         work = setting.evaluations * self.problem.duration
         begin = time.perf_counter()
         if self._pace and self._pace * work > share * (self._end - begin):
             return None
-        flight = fly(self.problem, self.problem.rungs[setting.rung], *setting[1:])
-        if not flight.fault:
+        trajectory = run_rung(self.problem, self.problem.rungs[setting.rung], *setting[1:])
+        if not trajectory.fault:
             self._pace = max(self._pace, (time.perf_counter() - begin) / work)
-        self._flights[setting] = flight
-        return flight
+        self._trajectories[setting] = trajectory
+        return trajectory
 
-    def note(self, setting: Setting, flight: Flight, error: float) -> None:
+    def note(self, setting: Setting, trajectory: Trajectory, error: float) -> None:
         """Record what became of a run; ``error`` is inf where it was lost."""
         row = setting._asdict() | {
             'error': error if math.isfinite(error) else None,
-            'fault': flight.fault,
+            'fault': trajectory.fault,
         }
         if row not in self.tried:
             self.tried.append(row)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from fluid_sim_ros.lab.budgeted_runs import Setting
 from fluid_sim_ros.lab.motion_errors import attitude_error, position_error
-from fluid_sim_ros.lab.problems.problem import Flight, Problem, fits, fly
+from fluid_sim_ros.lab.problems.problem import Problem, Trajectory, fits, run_rung
 from fluid_sim_ros.physics.arrays import Array
 
 #: Errors of the timestep alone are taken at this share of the run: later they fold back into
@@ -29,33 +29,33 @@ class Converged(NamedTuple):
     within: float  # early error against the run at twice the step [m] or [rad]
 
 
-class Flown:
+class RunCache:
     """The runs of a problem, each made once (two threads may make the same one: no harm)."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self._flights: dict[Setting, Flight] = {}
+        self._trajectories: dict[Setting, Trajectory] = {}
 
-    def __call__(self, setting: Setting) -> Flight:
+    def __call__(self, setting: Setting) -> Trajectory:
         """Return the run of a setting."""
-        if setting not in self._flights:
+        if setting not in self._trajectories:
             rung = self.problem.rungs[setting.rung]
-            self._flights[setting] = fly(self.problem, rung, *setting[1:])
-        return self._flights[setting]
+            self._trajectories[setting] = run_rung(self.problem, rung, *setting[1:])
+        return self._trajectories[setting]
 
 
-def converged_run(flown: Flown, rung: str) -> Converged:
+def converged_run(runs_of: RunCache, rung: str) -> Converged:
     """Run a rung by RK4 with smaller and smaller timesteps, to half the finest at most."""
-    problem = flown.problem
+    problem = runs_of.problem
     finest = problem.timesteps[-1]
     first, *finer = [
         h for h in (4 * finest, 2 * finest, finest, finest / 2)
         if fits(problem.rungs[rung], h, problem.sample)
     ]  # fmt: skip
-    coarse = flown(Setting(rung, 'RK4', first))
+    coarse = runs_of(Setting(rung, 'RK4', first))
     found = Converged(None, math.inf)
     for timestep in finer:
-        fine = flown(Setting(rung, 'RK4', timestep))
+        fine = runs_of(Setting(rung, 'RK4', timestep))
         if not (fine.fault or coarse.fault):
             apart = judged_error(problem, coarse.states, fine.states, early(problem))
             found = Converged(fine.states, apart)

@@ -17,7 +17,7 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.budgeted_runs import Setting
 from fluid_sim_ros.lab.convergence import (
     Converged,
-    Flown,
+    RunCache,
     converged_run,
     early,
     judged_error,
@@ -31,9 +31,9 @@ from fluid_sim_ros.lab.motion_errors import (
     regime_error,
     sensitivity,
 )
-from fluid_sim_ros.lab.parallel import side_by_side
+from fluid_sim_ros.lab.parallel import run_parallel
 from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Flight, Problem
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Problem, Trajectory
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.step_clock import whole_steps
 
@@ -71,9 +71,9 @@ def measure(
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
         whole_steps(problem.sample, timestep, f'{problem.name}: sample')
-    flown = Flown(problem)
-    runs = side_by_side(
-        lambda rung: converged_run(flown, rung),
+    runs_of = RunCache(problem)
+    runs = run_parallel(
+        lambda rung: converged_run(runs_of, rung),
         problem.rungs,
         f'{problem.name}: converged',
         report,
@@ -88,15 +88,15 @@ def measure(
     longest_first = sorted(settings, key=lambda setting: -setting.evaluations)
     what = f'{problem.name}: errors'
     with ThreadPoolExecutor(1) as beside:
-        nudged = beside.submit(sensitivity, problem, 'RK4', finest.timestep, flown(finest))
-        side_by_side(flown, longest_first, what, report)
+        nudged = beside.submit(sensitivity, problem, 'RK4', finest.timestep, runs_of(finest))
+        run_parallel(runs_of, longest_first, what, report)
         chaos = nudged.result()
     points = []
     for setting in settings:
         own = converged[setting.rung].states
-        flight = flown(setting)
-        alone = _errors(problem, flight, reference, own, chaotic=chaos.chaotic)
-        points.append(_point(setting, flight) | alone)
+        trajectory = runs_of(setting)
+        alone = _errors(problem, trajectory, reference, own, chaotic=chaos.chaotic)
+        points.append(_point(setting, trajectory) | alone)
     judged = 'regime' if chaos.chaotic else problem.judged_by
     result = _described(problem, converged, reference, chaos, judged)
     result |= {
@@ -197,28 +197,28 @@ def _regime_apart(problem: Problem, states: Array, reference: Array) -> float:
     return regime_error(regime(times, states), regime(times, reference))
 
 
-def _point(setting: Setting, flight: Flight) -> dict[str, Any]:
+def _point(setting: Setting, trajectory: Trajectory) -> dict[str, Any]:
     return {
         'rung': setting.rung,
         'integrator': setting.integrator,
         'timestep_s': setting.timestep,
-        'status': 'failed' if flight.fault else 'ok',
-        'fault': flight.fault,
-        'failed_at_s': flight.failed_at,
+        'status': 'failed' if trajectory.fault else 'ok',
+        'fault': trajectory.fault,
+        'failed_at_s': trajectory.failed_at,
     }
 
 
 def _errors(
-    problem: Problem, flight: Flight, reference: Array, own: Array | None, chaotic: bool
+    problem: Problem, trajectory: Trajectory, reference: Array, own: Array | None, chaotic: bool
 ) -> dict[str, Any]:
     """Return the errors against the reference, and those of the timestep alone."""
-    if flight.fault:
+    if trajectory.fault:
         return {'error': None, 'discretisation': None}
-    found = errors(problem, flight, reference)
+    found = errors(problem, trajectory, reference)
     if chaotic:
-        found['regime'] = _regime_apart(problem, flight.states, reference)
+        found['regime'] = _regime_apart(problem, trajectory.states, reference)
         return {'error': found, 'discretisation': None}
-    alone = None if own is None else judged_error(problem, flight.states, own, early(problem))
+    alone = None if own is None else judged_error(problem, trajectory.states, own, early(problem))
     return {'error': found, 'discretisation': alone}
 
 

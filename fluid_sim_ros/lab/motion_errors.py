@@ -9,9 +9,9 @@ from fluid_sim_ros.lab.problems.problem import (
     POSITION,
     QUATERNION,
     VELOCITY,
-    Flight,
     Problem,
-    fly,
+    Trajectory,
+    run_rung,
 )
 from fluid_sim_ros.physics.arrays import Array
 
@@ -50,14 +50,14 @@ def drift(values: Array) -> Array:
     return np.asarray(np.linalg.norm(table - table[0], axis=1) / size)
 
 
-def errors(problem: Problem, flight: Flight, reference: Array) -> dict[str, float]:
+def errors(problem: Problem, trajectory: Trajectory, reference: Array) -> dict[str, float]:
     """Return every error of a complete run, at the end and the largest over time."""
     found = {
-        'position_m': position_error(flight.states, reference),
-        'attitude_rad': attitude_error(flight.states, reference),
+        'position_m': position_error(trajectory.states, reference),
+        'attitude_rad': attitude_error(trajectory.states, reference),
     }
     if problem.invariants is not None:
-        kept = problem.invariants(problem.times, flight.states)
+        kept = problem.invariants(problem.times, trajectory.states)
         found |= {f'{name}_drift': drift(values) for name, values in kept.items()}
     ends = {name: float(series[-1]) for name, series in found.items()}
     return ends | {f'{name}_max': float(series.max()) for name, series in found.items()}
@@ -105,7 +105,9 @@ class Sensitivity(NamedTuple):
         }
 
 
-def sensitivity(problem: Problem, integrator: str, timestep: float, plain: Flight) -> Sensitivity:
+def sensitivity(
+    problem: Problem, integrator: str, timestep: float, plain: Trajectory
+) -> Sensitivity:
     """
     Return how a start changed by 1e-9 moves away from ``plain``, on the richest rung.
 
@@ -113,7 +115,7 @@ def sensitivity(problem: Problem, integrator: str, timestep: float, plain: Fligh
     linear growth of a distance does not count. The growth is taken from the first quarter of the
     run to the last, so that a transient at the start does not count either.
     """
-    nudged = fly(problem, problem.rungs[problem.richest], integrator, timestep, NUDGE)
+    nudged = run_rung(problem, problem.rungs[problem.richest], integrator, timestep, NUDGE)
     count = min(len(nudged.states), len(plain.states))
     both = slice(VELOCITY.start, OMEGA.stop)
     apart = np.linalg.norm(

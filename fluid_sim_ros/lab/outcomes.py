@@ -13,7 +13,7 @@ from fluid_sim_ros.simulation import Simulation
 #: In the order of their gravity. ``underdamped`` and ``energy loss``: T is above or below its
 #: converged course; ``energy gain``: T rises, which nothing passive does; ``reset``: MuJoCo found
 #: a number that is not finite or above 1e10, set the state back and went on without a word.
-FATES = ('stable', 'underdamped', 'energy loss', 'energy gain', 'blow-up', 'reset')
+OUTCOMES = ('stable', 'underdamped', 'energy loss', 'energy gain', 'blow-up', 'reset')
 #: Share of the start's energy that T may be off, or rise, by.
 TOLERANCE = 0.05
 #: T of a passive body above so many times its start is a blow-up.
@@ -32,8 +32,8 @@ class Run(NamedTuple):
     alarm: str  # first line of the watchdogs, which know nothing of the converged course
 
 
-class Fate(NamedTuple):
-    """How a run ended: a word of FATES, largest and last T/T0, when MuJoCo reset it, alarm."""
+class Outcome(NamedTuple):
+    """How a run ended: a word of OUTCOMES, largest and last T/T0, when MuJoCo reset it, alarm."""
 
     word: str
     largest: float
@@ -84,20 +84,20 @@ def _above(run: Run, course: Run) -> Array:
     return above
 
 
-def fate(body: Body, integrator: str, timestep: float) -> Fate:
+def outcome(body: Body, integrator: str, timestep: float) -> Outcome:
     """Return what becomes of a run, judged against the converged course of its energy."""
     run = coast(body, integrator, timestep)
     facts = (float(run.energy.max()), float(run.energy[-1]), run.reset_at, run.alarm)
     if run.reset_at is not None:
-        return Fate('reset', *facts)
+        return Outcome('reset', *facts)
     if run.energy.max() > _BLOWN_UP:
-        return Fate('blow-up', *facts)
+        return Outcome('blow-up', *facts)
     if (run.energy - np.minimum.accumulate(run.energy)).max() > TOLERANCE:
-        return Fate('energy gain', *facts)
+        return Outcome('energy gain', *facts)
     above = _above(run, _course(body))
     if above.min() < -TOLERANCE:
-        return Fate('energy loss', *facts)
-    return Fate('underdamped' if above.max() > TOLERANCE else 'stable', *facts)
+        return Outcome('energy loss', *facts)
+    return Outcome('underdamped' if above.max() > TOLERANCE else 'stable', *facts)
 
 
 def one_step(body: Body, integrator: str, timestep: float) -> float:

@@ -11,7 +11,7 @@ Item = TypeVar('Item')
 Result = TypeVar('Result')
 
 
-def side_by_side(
+def run_parallel(
     work: Callable[[Item], Result], items: Iterable[Item], what: str, report: Report
 ) -> list[Result]:
     """Return what ``work`` makes of each item, in order; an error or interruption ends all."""

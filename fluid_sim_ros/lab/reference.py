@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab.budgeted_runs import Setting, Trials
+from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns, Setting
 from fluid_sim_ros.lab.cost import Report
 from fluid_sim_ros.lab.metrics import Metric, metric
 from fluid_sim_ros.lab.motion_errors import Sensitivity, sensitivity
-from fluid_sim_ros.lab.problems.problem import Flight, Problem
+from fluid_sim_ros.lab.problems.problem import Problem, Trajectory
 
 #: RK4 converges fastest; where it fails (stiff drag), a method that stays bounded.
 _INTEGRATORS = ('RK4', 'implicitfast')
@@ -31,7 +31,7 @@ class Reference:
     every method that converges, which is why ``sure`` settings keep the tolerance less this.
     """
 
-    flight: Flight
+    trajectory: Trajectory
     within: float
     setting: Setting
     sensitivity: Sensitivity
@@ -43,13 +43,17 @@ class Reference:
         """Return whether the run is known well enough to judge by."""
         return self.within <= _ENOUGH * tolerance
 
-    def error(self, flight: Flight) -> float:
+    def error(self, trajectory: Trajectory) -> float:
         """Return the relative error of a run, inf where it was lost."""
-        return math.inf if flight.fault else self.metric(flight.states, self.flight.states)
+        return (
+            math.inf
+            if trajectory.fault
+            else self.metric(trajectory.states, self.trajectory.states)
+        )
 
 
 def find_reference(
-    trials: Trials, first: float, tolerance: float, metric_name: str, report: Report
+    budgeted: BudgetedRuns, first: float, tolerance: float, metric_name: str, report: Report
 ) -> Reference:
     """
     Run the richest model, halving the step from ``first`` [s] until the metric no longer changes.
@@ -63,9 +67,9 @@ def find_reference(
         Where no run lasts.
 
     """
-    problem = trials.problem
+    problem = budgeted.problem
     for integrator in _INTEGRATORS:
-        found = _refined(trials, integrator, first, tolerance, metric_name, report)
+        found = _refined(budgeted, integrator, first, tolerance, metric_name, report)
         if found is not None:
             return found
     raise ConfigError(
@@ -76,28 +80,33 @@ def find_reference(
 
 
 def _refined(
-    trials: Trials, integrator: str, first: float, tolerance: float, name: str, report: Report
+    budgeted: BudgetedRuns,
+    integrator: str,
+    first: float,
+    tolerance: float,
+    name: str,
+    report: Report,
 ) -> Reference | None:
-    problem, refinements = trials.problem, []
-    runs: list[tuple[Setting, Flight]] = []
+    problem, refinements = budgeted.problem, []
+    runs: list[tuple[Setting, Trajectory]] = []
     within = math.inf
     what = f'{problem.name}: reference ({integrator})'
     for done in range(_HALVINGS + 1):
         report(what, done, _HALVINGS + 1)
         setting = Setting(problem.richest, integrator, first / 2**done)
-        flight = trials.fly(setting, _SHARE)
-        if flight is None:
-            trials.leave_out(*setting, 'the time budget ends before this run of the reference')
+        trajectory = budgeted.run(setting, _SHARE)
+        if trajectory is None:
+            budgeted.leave_out(*setting, 'the time budget ends before this run of the reference')
             break
-        if flight.fault:
+        if trajectory.fault:
             runs.clear()
             within = math.inf
         else:
-            runs.append((setting, flight))
+            runs.append((setting, trajectory))
             if len(runs) > 1:
                 within = _apart(problem, name, runs)
         refinements.append({
-            'integrator': integrator, 'timestep_s': setting.timestep, 'fault': flight.fault,
+            'integrator': integrator, 'timestep_s': setting.timestep, 'fault': trajectory.fault,
             'change': within if math.isfinite(within) else None,
         })  # fmt: skip
         long = problem.duration / setting.timestep >= _LONG
@@ -110,12 +119,12 @@ def _refined(
     if within > _ENOUGH * tolerance and chaos.chaotic:
         name = 'regime'
         within = _apart(problem, name, runs) if len(runs) > 1 else math.inf
-    setting, flight = runs[-1]
-    judge = metric(name, problem, flight.states)
-    return Reference(flight, within, setting, chaos, name, judge, refinements)
+    setting, trajectory = runs[-1]
+    judge = metric(name, problem, trajectory.states)
+    return Reference(trajectory, within, setting, chaos, name, judge, refinements)
 
 
-def _apart(problem: Problem, name: str, runs: list[tuple[Setting, Flight]]) -> float:
+def _apart(problem: Problem, name: str, runs: list[tuple[Setting, Trajectory]]) -> float:
     """Return how far the last two runs are apart."""
     (_, coarse), (_, fine) = runs[-2:]
     return metric(name, problem, fine.states)(coarse.states, fine.states)

@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
-from fluid_sim_ros.lab.budgeted_runs import Setting, Trials
+from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns, Setting
 from fluid_sim_ros.lab.cost import Report
 from fluid_sim_ros.lab.problems.problem import fits
 from fluid_sim_ros.lab.reference import Reference
@@ -30,7 +30,7 @@ class Candidate:
 
 
 def search(
-    trials: Trials, reference: Reference, tolerance: float, report: Report
+    budgeted: BudgetedRuns, reference: Reference, tolerance: float, report: Report
 ) -> tuple[list[Candidate], list[dict[str, Any]]]:
     """
     Return the candidates that keep the tolerance, and the best of those that do not.
@@ -39,15 +39,15 @@ def search(
     rung whose own error is beyond the tolerance is left out, and so is what needs clearly more
     evaluations of the forces than a setting that is found.
     """
-    problem = trials.problem
+    problem = budgeted.problem
     found: list[Candidate] = []
     refused = []
-    rungs = [rung for rung in problem.rungs if _worthwhile(trials, reference, tolerance, rung)]
+    rungs = [rung for rung in problem.rungs if _worthwhile(budgeted, reference, tolerance, rung)]
     pairs = list(itertools.product(rungs, _ORDER))
     for done, (rung, integrator) in enumerate(pairs):
         report(f'{problem.name}: search', done, len(pairs))
         most = min((each.setting.evaluations for each in found), default=math.inf) * _DEARER
-        candidate, best = _largest_step(trials, reference, tolerance, rung, integrator, most)
+        candidate, best = _largest_step(budgeted, reference, tolerance, rung, integrator, most)
         if candidate is not None:
             found.append(candidate)
         elif best is not None:
@@ -56,23 +56,23 @@ def search(
     return found, refused
 
 
-def _worthwhile(trials: Trials, reference: Reference, tolerance: float, rung: str) -> bool:
+def _worthwhile(budgeted: BudgetedRuns, reference: Reference, tolerance: float, rung: str) -> bool:
     """Return whether a rung's own error, without that of the timestep, is within the tolerance."""
-    if rung == trials.problem.richest:
+    if rung == budgeted.problem.richest:
         return True
-    flight = trials.fly(reference.setting._replace(rung=rung))
-    if flight is None:
-        trials.leave_out(rung, '', None, _NO_TIME)
+    trajectory = budgeted.run(reference.setting._replace(rung=rung))
+    if trajectory is None:
+        budgeted.leave_out(rung, '', None, _NO_TIME)
         return False
-    error = reference.error(flight)
+    error = reference.error(trajectory)
     if error > tolerance:
-        own = f'is {error:.2g}' if math.isfinite(error) else f'cannot be told: {flight.fault}'
-        trials.leave_out(rung, '', None, f"the model's own error {own}")
+        own = f'is {error:.2g}' if math.isfinite(error) else f'cannot be told: {trajectory.fault}'
+        budgeted.leave_out(rung, '', None, f"the model's own error {own}")
     return error <= tolerance
 
 
 def _largest_step(
-    trials: Trials, reference: Reference, tolerance: float, rung: str, integrator: str,
+    budgeted: BudgetedRuns, reference: Reference, tolerance: float, rung: str, integrator: str,
     most: float,
 ) -> tuple[Candidate | None, dict[str, Any] | None]:  # fmt: skip
     """
@@ -81,7 +81,7 @@ def _largest_step(
     Without one: the best error found. The search ends where a step would need more than ``most``
     evaluations.
     """
-    timesteps = trials.problem.timesteps
+    timesteps = budgeted.problem.timesteps
     fails_at: float | None = None
     held: tuple[float, float] | None = None
     errors: list[tuple[float, float]] = []  # error, timestep
@@ -89,14 +89,14 @@ def _largest_step(
         setting = Setting(rung, integrator, timestep)
         if setting.evaluations > most and held is None:
             why = f'more than {_DEARER:g} times the evaluations of a setting that is found'
-            trials.leave_out(*setting, why)
+            budgeted.leave_out(*setting, why)
             break
-        flight = trials.fly(setting)
-        if flight is None:
-            trials.leave_out(*setting, _NO_TIME)
+        trajectory = budgeted.run(setting)
+        if trajectory is None:
+            budgeted.leave_out(*setting, _NO_TIME)
             break
-        error = reference.error(flight)
-        trials.note(setting, flight, error)
+        error = reference.error(trajectory)
+        budgeted.note(setting, trajectory, error)
         errors.append((error, timestep))
         if error > tolerance - reference.within:
             held = None
@@ -115,22 +115,22 @@ def _largest_step(
     }  # fmt: skip
 
 
-def with_limit(trials: Trials, reference: Reference, candidate: Candidate) -> Candidate:
+def with_limit(budgeted: BudgetedRuns, reference: Reference, candidate: Candidate) -> Candidate:
     """Return a candidate with the timestep at which it fails, beyond those that fit the rate."""
     if candidate.fails_at is not None:
         return candidate
-    problem = trials.problem
+    problem = budgeted.problem
     tried_to = candidate.setting.timestep
     for timestep in reversed(LADDER):
         setting = candidate.setting._replace(timestep=timestep)
         fit = fits(problem.rungs[setting.rung], timestep, problem.sample)
         if timestep <= candidate.setting.timestep or not fit:
             continue
-        flight = trials.fly(setting)
-        if flight is None:
+        trajectory = budgeted.run(setting)
+        if trajectory is None:
             break
-        error = reference.error(flight)
-        trials.note(setting, flight, error)
+        error = reference.error(trajectory)
+        budgeted.note(setting, trajectory, error)
         if error >= 1:
             return replace(candidate, fails_at=timestep)
         tried_to = timestep

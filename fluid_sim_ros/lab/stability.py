@@ -11,7 +11,7 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.cost import Report
 from fluid_sim_ros.lab.measure import conditions
-from fluid_sim_ros.lab.outcomes import fate, one_step
+from fluid_sim_ros.lab.outcomes import one_step, outcome
 from fluid_sim_ros.lab.problems.bodies import AXES, Body, Family, family
 from fluid_sim_ros.lab.problems.boundaries import critical
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS
@@ -143,10 +143,10 @@ def _kept(head: Mapping[str, Any], path: Path) -> dict[Key, dict[str, Any]]:
 
 def _cell(head: Mapping[str, Any], integrator: str, x: float, y: float) -> dict[str, Any]:
     given = {**head['fixed'], head['x']: x, head['y']: y}
-    found = fate(_body(head, given), integrator, given.get('timestep', 0.01))
+    found = outcome(_body(head, given), integrator, given.get('timestep', 0.01))
     return {
-        'fate': found.word, 'largest': min(found.largest, 1e300), 'last': min(found.last, 1e300),
-        'reset_at_s': found.reset_at, 'alarm': found.alarm,
+        'outcome': found.word, 'largest': min(found.largest, 1e300),
+        'last': min(found.last, 1e300), 'reset_at_s': found.reset_at, 'alarm': found.alarm,
     }  # fmt: skip
 
 
@@ -188,7 +188,7 @@ def largest_steps(
         body = _body(head, {**head['fixed'], head['y']: y})
 
         def stable(h: float, body: Body = body, kind: str = integrator) -> bool:
-            return fate(body, kind, h).word == 'stable'
+            return outcome(body, kind, h).word == 'stable'
 
         rows.append({'integrator': integrator, 'y': y, 'largest_s': bisect(stable, low, high)})
     report(f'{head["problem"]}: bisection', len(keys), len(keys))

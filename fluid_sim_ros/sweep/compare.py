@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from fluid_sim_ros.sweep.flight import COLUMNS, Flights
+from fluid_sim_ros.sweep.case_runs import COLUMNS, CaseRunner
 
 #: Runs that are flown again.
 _CHECKED = 8
@@ -21,13 +21,13 @@ _KINDS = {
 _KIND_OF = {column: kind for kind, columns in _KINDS.items() for column in columns}
 
 
-def against_cpu(flights: Flights, table: pa.Table, most: int = _CHECKED) -> dict[str, Any]:
+def against_cpu(runner: CaseRunner, table: pa.Table, most: int = _CHECKED) -> dict[str, Any]:
     """
     Fly some runs of a table again in double precision on the processor, and compare.
 
     Parameters
     ----------
-    flights
+    runner
         The sweep.
     table
         Its results from elsewhere, in the order of the runs.
@@ -47,7 +47,7 @@ def against_cpu(flights: Flights, table: pa.Table, most: int = _CHECKED) -> dict
     spread = np.unique(np.linspace(0, len(sound) - 1, most).astype(int))
     picked = sound[spread] if len(sound) else []
     theirs = [table.slice(int(i), 1).to_pylist()[0] for i in picked]
-    ours = [flights.row(int(row['run'])) for row in theirs]
+    ours = [runner.row(int(row['run'])) for row in theirs]
     pairs = [(a, b) for a, b in zip(theirs, ours, strict=True) if b['status'] == 'ok']
     difference, relative = {}, {}
     for name in table.column_names:

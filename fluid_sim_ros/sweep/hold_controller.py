@@ -23,9 +23,9 @@ _Numbers = list[float]
 Answer = Callable[[float, _Numbers, _Numbers, _Numbers, _Numbers], _Numbers]
 
 
-class Holding:
+class HoldController:
     """
-    The controller of one vehicle; made by ``holding``.
+    The controller of one vehicle; made by ``hold_controller``.
 
     Attributes
     ----------
@@ -76,7 +76,9 @@ class Holding:
 _GAINS: dict[str, type[Gains]] = {'multirotor': MultirotorGains, 'underwater': UnderwaterGains}
 
 
-def holding(hold: Hold, plant: Plant, vehicle: str, simulation: Simulation) -> Holding:
+def hold_controller(
+    hold: Hold, plant: Plant, vehicle: str, simulation: Simulation
+) -> HoldController:
     """
     Return the controller of a sweep for a simulation.
 
@@ -98,7 +100,7 @@ def holding(hold: Hold, plant: Plant, vehicle: str, simulation: Simulation) -> H
     """
     period = period_steps(hold.rate, simulation.timestep, "key 'hold.rate'")
     row = list(simulation.vehicles).index(vehicle)
-    return Holding(hold, vehicle, row, period, _LAWS[hold.law](hold, plant))
+    return HoldController(hold, vehicle, row, period, _LAWS[hold.law](hold, plant))
 
 
 def _gains(kind: type[Gains], values: Mapping[str, Any]) -> Gains:

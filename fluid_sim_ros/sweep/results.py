@@ -10,7 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.sweep.flight import Row
+from fluid_sim_ros.sweep.case_runs import Row
 from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
 #: Runs from the first up to the second.

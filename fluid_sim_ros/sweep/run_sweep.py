@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.sweep.case_runs import LARGEST_PORTION, CaseRunner
 from fluid_sim_ros.sweep.compare import against_cpu
-from fluid_sim_ros.sweep.flight import LARGEST_PORTION, Flights
 from fluid_sim_ros.sweep.results import Portion, Results, gaps, statistics
 from fluid_sim_ros.sweep.sweep_file import SweepFile
-from fluid_sim_ros.sweep.warp_worlds import WorldFlights
+from fluid_sim_ros.sweep.warp_worlds import WarpRuns
 from fluid_sim_ros.sweep.workers import on_ray, on_threads
 
 #: Most steps of a portion of more than one run: some tenths of a second of work.
@@ -23,7 +23,7 @@ _PARTS_OF_SHARE = 4
 Report = Callable[[int, int], None]
 
 
-def conduct(
+def run_sweep(
     sweep: SweepFile,
     out: Path,
     *,
@@ -71,11 +71,11 @@ def conduct(
         raise ConfigError(f'--workers {workers}: must be 1 or more')
     if device is not None and ray_address is not None:
         raise ConfigError(f'--device {device} and --ray {ray_address}: choose one of them')
-    flights = Flights(sweep)
-    steps = flights.check()
-    worlds = None if device is None else WorldFlights(sweep, device, workers)
+    runner = CaseRunner(sweep)
+    steps = runner.check()
+    worlds = None if device is None else WarpRuns(sweep, device, workers)
     results = Results(out, sweep, worlds.device.description if worlds else '')
-    total = len(flights.cases)
+    total = len(runner.cases)
     left = gaps(results.kept(), total)
     kept = done = total - sum(end - begin for begin, end in left)
     report(done, total)
@@ -109,7 +109,7 @@ def conduct(
         **statistics(table),
     }
     if worlds is not None:
-        result['against_cpu'] = against_cpu(flights, table)
+        result['against_cpu'] = against_cpu(runner, table)
     return result
 
 

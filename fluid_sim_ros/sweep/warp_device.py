@@ -17,7 +17,7 @@ from fluid_sim_ros.simulation import Simulation
 PRECISION = 'float32'
 
 
-class Device:
+class WarpDevice:
     """
     A device, by the name that Warp gives it.
 
@@ -72,7 +72,7 @@ class Device:
         return self.wp.ScopedDevice(self._device)
 
 
-class Worlds:
+class WarpWorlds:
     """
     One model with ``size`` worlds on a device.
 
@@ -97,7 +97,7 @@ class Worlds:
     """
 
     def __init__(
-        self, device: Device, simulation: Simulation, size: int, own_fields: Sequence[str]
+        self, device: WarpDevice, simulation: Simulation, size: int, own_fields: Sequence[str]
     ) -> None:
         self._device = device
         self._graph: Any = None

@@ -104,10 +104,7 @@ def batched_fields(model_type: Any) -> list[str]:
     return [name for name, shape in shapes.items() if shape and shape[0] == '*']
 
 
-Worlds = Array
-
-
-def motion_of(simulation: Simulation, qpos: Worlds, qvel: Worlds) -> Worlds:
+def motion_of(simulation: Simulation, qpos: Array, qvel: Array) -> Array:
     """
     Return the motion of free bases, as the columns of ``plugins.native`` have it.
 
@@ -136,9 +133,9 @@ def motion_of(simulation: Simulation, qpos: Worlds, qvel: Worlds) -> Worlds:
     return np.stack(rows, axis=1)
 
 
-def _turned_back(quat: Worlds, vector: Worlds) -> Worlds:
+def _turned_back(quat: Array, vector: Array) -> Array:
     """Return vectors of the world in the axes of bodies with these quaternions (wxyz)."""
     axis = quat[:, 1:]
     across = np.cross(axis, vector)
-    result: Worlds = vector - 2.0 * quat[:, :1] * across + 2.0 * np.cross(axis, across)
+    result: Array = vector - 2.0 * quat[:, :1] * across + 2.0 * np.cross(axis, across)
     return result

@@ -8,10 +8,17 @@ import numpy as np
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.step_clock import StepClock
-from fluid_sim_ros.sweep.flight import Flights, Ready, Row, columns, row_begun, start
+from fluid_sim_ros.sweep.case_runs import (
+    CaseRunner,
+    CompiledRun,
+    Row,
+    columns,
+    row_begun,
+    start,
+)
 from fluid_sim_ros.sweep.results import Portion
 from fluid_sim_ros.sweep.sweep_file import SweepFile, Value
-from fluid_sim_ros.sweep.warp_device import Device, Worlds, state_fields
+from fluid_sim_ros.sweep.warp_device import WarpDevice, WarpWorlds, state_fields
 from fluid_sim_ros.sweep.warp_models import (
     batched_fields,
     check_stock,
@@ -27,7 +34,7 @@ _LARGEST_SOUND = 1e10
 _SETTINGS = ('timestep', 'integrator', 'fluid', 'seed')
 
 
-class WorldFlights:
+class WarpRuns:
     """
     Flies the cases of a sweep on a device.
 
@@ -55,18 +62,18 @@ class WorldFlights:
     """
 
     def __init__(self, sweep: SweepFile, device: str, most: int | None = None) -> None:
-        self._flights = Flights(sweep)
+        self._runner = CaseRunner(sweep)
         self._masses = [key.removeprefix('mass.') for key in sweep.vary if key.startswith('mass.')]
-        ready = self._base(self._flights.cases[0])
+        ready = self._base(self._runner.cases[0])
         check_stock(sweep, ready.simulation, ready.steps, device)
-        self.device = Device(device)
+        self.device = WarpDevice(device)
         self.most = most or (_WORLDS_ON_GPU if self.device.is_cuda else _WORLDS_ON_CPU)
         #: Fields of the model in which worlds differ.
         self._own_fields = fields_of_masses(
             ready.simulation.model, self._masses, batched_fields(self.device.mjw.Model)
         )
         #: The worlds that were flown last; another model or size takes their place.
-        self._worlds: tuple[Ready, int, Worlds] | None = None
+        self._worlds: tuple[CompiledRun, int, WarpWorlds] | None = None
         self._prepare(ready, 1)
 
     def portions(self, left: Sequence[Portion]) -> Iterator[list[Row]]:
@@ -79,33 +86,33 @@ class WorldFlights:
         """Return the rows of the runs from ``begin`` up to ``end``, at most ``most``."""
         groups: dict[tuple[Value, ...], list[int]] = {}
         for index in range(begin, end):
-            values = self._flights.cases[index]
+            values = self._runner.cases[index]
             key = tuple(values.get(name, '') for name in _SETTINGS)
             groups.setdefault(key, []).append(index)
-        rows = [row for group in groups.values() for row in self._fly(group)]
+        rows = [row for group in groups.values() for row in self._run(group)]
         for row in rows:
             row['device'] = self.device.description
         return sorted(rows, key=lambda row: int(row['run']))
 
-    def _base(self, values: Mapping[str, Value]) -> Ready:
+    def _base(self, values: Mapping[str, Value]) -> CompiledRun:
         """Return the simulation of a case, with the masses of the scene."""
-        return self._flights.prepare(
+        return self._runner.prepare(
             {key: value for key, value in values.items() if not key.startswith('mass.')}
         )
 
-    def _prepare(self, ready: Ready, count: int) -> tuple[Worlds, int]:
+    def _prepare(self, ready: CompiledRun, count: int) -> tuple[WarpWorlds, int]:
         """Return worlds of a model, as many as a power of two, and how many they are."""
         size = min(1 << (count - 1).bit_length(), max(self.most, count))
         last = self._worlds
         if last is not None and last[0] is ready and last[1] == size:
             return last[2], size
-        worlds = Worlds(self.device, ready.simulation, size, self._own_fields)
+        worlds = WarpWorlds(self.device, ready.simulation, size, self._own_fields)
         self._worlds = (ready, size, worlds)
         return worlds, size
 
-    def _fly(self, indices: Sequence[int]) -> list[Row]:
+    def _run(self, indices: Sequence[int]) -> list[Row]:
         """Fly runs of one model."""
-        ready = self._base(self._flights.cases[indices[0]])
+        ready = self._base(self._runner.cases[indices[0]])
         model, data = ready.simulation.model, ready.simulation.data
         failed: list[Row] = []
         flown: list[Row] = []
@@ -113,7 +120,7 @@ class WorldFlights:
         winds: list[Array] = []
         models: list[mujoco.MjModel] = []
         for index in indices:
-            values = self._flights.cases[index]
+            values = self._runner.cases[index]
             factors = {name: float(values[f'mass.{name}']) for name in self._masses}
             row = row_begun(index, values)
             try:
@@ -142,7 +149,7 @@ class WorldFlights:
         return failed + _watched(ready, worlds, flown, np.stack(starts['qpos']))
 
 
-def _watched(ready: Ready, worlds: Worlds, rows: list[Row], qpos: Array) -> list[Row]:
+def _watched(ready: CompiledRun, worlds: WarpWorlds, rows: list[Row], qpos: Array) -> list[Row]:
     """Step the worlds to the end under watch; a world that blows up concerns its row alone."""
     simulation, count = ready.simulation, len(rows)
     clock = StepClock(simulation.timestep)

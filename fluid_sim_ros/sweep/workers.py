@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
-from fluid_sim_ros.sweep.flight import Flights, Row
+from fluid_sim_ros.sweep.case_runs import CaseRunner, Row
 from fluid_sim_ros.sweep.results import Portion
 from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
@@ -18,7 +18,7 @@ _ANSWER_S = 5.0
 
 def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> Iterator[list[Row]]:
     """
-    Fly portions in threads; stepping releases Python's lock, so they run side by side.
+    Run portions in threads; stepping releases Python's lock, so they run side by side.
 
     ``mujoco.rollout`` and ``mujoco.batch`` would not do for all: they know neither the schedule
     and gaits of a scene nor a controller nor the watch after each step. For runs that need none of
@@ -26,30 +26,30 @@ def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> I
     """
     own = threading.local()
 
-    def fly(portion: Portion) -> list[Row]:
-        if not hasattr(own, 'flights'):
-            own.flights = Flights(sweep)
-        rows: list[Row] = own.flights.rows(*portion)
+    def run_portion(portion: Portion) -> list[Row]:
+        if not hasattr(own, 'runner'):
+            own.runner = CaseRunner(sweep)
+        rows: list[Row] = own.runner.rows(*portion)
         return rows
 
     pool = ThreadPoolExecutor(workers)
     try:
-        futures = [pool.submit(fly, portion) for portion in portions]
+        futures = [pool.submit(run_portion, portion) for portion in portions]
         for future in as_completed(futures):
             yield future.result()
     finally:
         pool.shutdown(cancel_futures=True)
 
 
-#: The sweep that a Ray worker runs, ready to fly: key and flights.
-_worker: dict[str, Flights] = {}
+#: The sweep that a Ray worker runs, ready to run: key and runner.
+_worker: dict[str, CaseRunner] = {}
 
 
-def _fly_remotely(plain: dict[str, Any], portion: Portion) -> list[Row]:
+def _run_remotely(plain: dict[str, Any], portion: Portion) -> list[Row]:
     key = repr(plain)
     if key not in _worker:
         _worker.clear()
-        _worker[key] = Flights(SweepFile.model_validate(plain))
+        _worker[key] = CaseRunner(SweepFile.model_validate(plain))
     return _worker[key].rows(*portion)
 
 
@@ -57,7 +57,7 @@ def on_ray(
     sweep: SweepFile, portions: Sequence[Portion], workers: int, address: str
 ) -> Iterator[list[Row]]:
     """
-    Fly portions on a Ray cluster, which repeats those of a worker that dies.
+    Run portions on a Ray cluster, which repeats those of a worker that dies.
 
     Raises
     ------
@@ -83,15 +83,15 @@ def on_ray(
     except (ConnectionError, ValueError) as error:
         raise ConfigError(f"--ray '{address}': {str(error).splitlines()[0]}") from None
     try:
-        fly = ray.remote(max_retries=3)(_fly_remotely)
+        remote = ray.remote(max_retries=3)(_run_remotely)
         plain = as_plain(sweep)
-        flying: set[Any] = set()
+        under_way: set[Any] = set()
         for portion in portions:
-            flying.add(fly.remote(plain, portion))
-            if len(flying) >= 2 * workers:
-                yield from _first(ray, flying)
-        while flying:
-            yield from _first(ray, flying)
+            under_way.add(remote.remote(plain, portion))
+            if len(under_way) >= 2 * workers:
+                yield from _first(ray, under_way)
+        while under_way:
+            yield from _first(ray, under_way)
     finally:
         ray.shutdown()
 
@@ -111,8 +111,8 @@ def _check_address(address: str) -> None:
         raise ConfigError(f"--ray '{address}': no Ray answers there ({error})") from None
 
 
-def _first(ray: Any, flying: set[Any]) -> Iterable[list[Row]]:
+def _first(ray: Any, under_way: set[Any]) -> Iterable[list[Row]]:
     """Yield the portion that is ready first."""
-    (ready,), _ = ray.wait(list(flying), num_returns=1)
-    flying.remove(ready)
+    (ready,), _ = ray.wait(list(under_way), num_returns=1)
+    under_way.remove(ready)
     yield ray.get(ready)

@@ -11,7 +11,7 @@ from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advise import advise, settings, snippet, verify
-from fluid_sim_ros.lab.budgeted_runs import Trials
+from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns
 from fluid_sim_ros.lab.manoeuvre import judged_part
 from fluid_sim_ros.lab.metrics import METRICS, metric
 from fluid_sim_ros.lab.problems.catalogue import problem
@@ -204,8 +204,8 @@ def test_a_sensitive_motion_is_compared_point_by_point_as_long_as_that_works():
 
 def test_a_motion_that_forgets_its_start_is_judged_by_its_regime():
     """Sheets that flutter chaotically: no refinement agrees with the last one after a while."""
-    trials = Trials(problem('plate_chaos'), 60.0)
-    found = find_reference(trials, 0.02, 0.01, 'pose', lambda *_: None)
+    budgeted = BudgetedRuns(problem('plate_chaos'), 60.0)
+    found = find_reference(budgeted, 0.02, 0.01, 'pose', lambda *_: None)
     assert found.sensitivity.chaotic
     assert found.metric_name == 'regime'
 

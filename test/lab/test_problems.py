@@ -15,7 +15,7 @@ from fluid_sim_ros.lab.motion_errors import (
     sensitivity,
 )
 from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
-from fluid_sim_ros.lab.problems.problem import QUATERNION, fits, fly, of_scene
+from fluid_sim_ros.lab.problems.problem import QUATERNION, fits, of_scene, run_rung
 
 # the quasi-steady plate differs from the ellipsoid's drag by its shadow: a model error
 OF_SCENES = ['swimmer', 'quad_in_turbulence']
@@ -26,8 +26,8 @@ EXACT = [name for name in SOLVED if not name.startswith('plate')]
 @pytest.mark.parametrize('name', EXACT)
 def test_the_richest_model_meets_the_reference(name):
     case = problem(name)
-    flight = fly(case, case.rungs[case.richest], 'RK4', 1e-3)
-    found = errors(case, flight, case.reference(case.times))
+    trajectory = run_rung(case, case.rungs[case.richest], 'RK4', 1e-3)
+    found = errors(case, trajectory, case.reference(case.times))
     assert found['position_m_max'] < 1e-8
     assert found['attitude_rad_max'] < 1e-8
     assert all(value < 1e-8 for key, value in found.items() if 'drift' in key)
@@ -38,7 +38,7 @@ def test_a_poorer_model_does_not(name):
     case = problem(name)
     reference = case.reference(case.times)
     for rung in list(case.rungs)[:-1]:
-        found = errors(case, fly(case, case.rung(rung), 'RK4', 2e-3), reference)
+        found = errors(case, run_rung(case, case.rung(rung), 'RK4', 2e-3), reference)
         assert found[f'{case.judged_by}_max'] > 1e-5
 
 
@@ -47,7 +47,7 @@ def test_a_scene_converges_with_order_4(name):
     """Its own converged run is a reference: also in turbulence, whose gusts are the same."""
     case = replace(problem(name), duration=1.0)
     steps = (5e-3, 2.5e-3, 1.25e-3, 6.25e-4)
-    runs = [fly(case, case.rungs['scene'], 'RK4', h).states for h in steps]
+    runs = [run_rung(case, case.rungs['scene'], 'RK4', h).states for h in steps]
     coarse, _, fine = (position_error(a, b)[-1] for a, b in pairwise(runs))
     # over two halvings: a single one scatters where the gusts bend
     assert coarse / fine > 2 ** (2 * 3.5)
@@ -65,7 +65,7 @@ def test_the_problems_say_what_they_stand_for():
 def test_tumbling_is_regular_and_a_heavy_plate_is_chaotic():
     for name, chaotic in (('kirchhoff', False), ('foil_glide', False), ('plate_chaos', True)):
         case = problem(name)
-        plain = fly(case, case.rungs[case.richest], 'RK4', 5e-3)
+        plain = run_rung(case, case.rungs[case.richest], 'RK4', 5e-3)
         found = sensitivity(case, 'RK4', 5e-3, plain)
         assert found.chaotic is chaotic
         assert found.growth > 10

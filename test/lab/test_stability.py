@@ -1,4 +1,4 @@
-"""Stability: predicted boundaries, fates, watchdogs, maps that go on after an interruption."""
+"""Stability: predicted boundaries, outcomes, watchdogs, maps that go on after an interruption."""
 
 import json
 
@@ -9,7 +9,7 @@ from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab import stability
 from fluid_sim_ros.lab.false_alarms import random_run
-from fluid_sim_ros.lab.outcomes import coast, fate
+from fluid_sim_ros.lab.outcomes import coast, outcome
 from fluid_sim_ros.lab.problems.bodies import FAMILIES, Body, family
 from fluid_sim_ros.lab.problems.boundaries import amplification, critical
 from fluid_sim_ros.lab.stability import bisect, measured_numbers, plan, run_map
@@ -52,7 +52,7 @@ def test_the_predicted_boundaries_are_met(name, integrator):
     ],
 )
 def test_fates(name, integrator, timestep, word):
-    assert fate(family(name).body, integrator, timestep).word == word
+    assert outcome(family(name).body, integrator, timestep).word == word
 
 
 def test_the_watchdogs_see_silent_failures_and_say_nothing_of_a_good_run():
@@ -71,7 +71,7 @@ def test_random_stable_runs_raise_no_alarm():
     rng = np.random.default_rng(1)
     for _ in range(20):
         body, integrator, timestep = random_run(rng)
-        found = fate(body, integrator, timestep)
+        found = outcome(body, integrator, timestep)
         assert (found.word, found.alarm) == ('stable', '')
 
 
@@ -80,7 +80,7 @@ def test_a_thousand_stable_runs_raise_no_alarm():
     rng = np.random.default_rng(2026)
     for _ in range(1000):
         body, integrator, timestep = random_run(rng)
-        found = fate(body, integrator, timestep)
+        found = outcome(body, integrator, timestep)
         assert (found.word, found.alarm) == ('stable', '')
 
 
@@ -111,7 +111,7 @@ def test_a_map_goes_on_where_it_was_cut_off(tmp_path, monkeypatch):
     lines = (tmp_path / 'whole.jsonl').read_text().splitlines(keepends=True)
     path.write_text(''.join(lines[:6]) + lines[6][:20])  # killed in the middle of a line
     runs = []
-    monkeypatch.setattr(stability, 'fate', lambda *args: runs.append(args) or fate(*args))
+    monkeypatch.setattr(stability, 'outcome', lambda *args: runs.append(args) or outcome(*args))
     assert run_map(head, path)['map'] == whole['map']
     assert len(runs) == 9 - 5
     assert run_map(head, path)['map'] == whole['map']
@@ -149,7 +149,7 @@ def test_the_command(tmp_path, capsys):
     assert main(arguments) == 0
     result = json.loads(capsys.readouterr().out)
     assert len(result['map']) == 2 * 3 * 3
-    assert {row['fate'] for row in result['map']} >= {'stable', 'reset'}
+    assert {row['outcome'] for row in result['map']} >= {'stable', 'reset'}
     assert len(result['largest_steps']) == 2 * 3
     assert (tmp_path / 'plate_timestep_speed.png').stat().st_size > 10_000
     assert main(['stability', 'plate', '--set', 'aspect=wide']) == 2

@@ -15,9 +15,9 @@ import pytest
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.errors import ConfigError, FluidSimError, MissingExtraError
-from fluid_sim_ros.sweep.flight import Flights
+from fluid_sim_ros.sweep.case_runs import CaseRunner
 from fluid_sim_ros.sweep.results import as_table
-from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.run_sweep import run_sweep
 from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, read_sweep
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -70,7 +70,7 @@ def test_draws_follow_their_distributions():
 
 @pytest.mark.parametrize('name', sorted(p.name for p in (ROOT / 'config/sweeps').glob('*.yaml')))
 def test_the_shipped_sweeps_are_sound(name):
-    Flights(read_sweep(ROOT / 'config/sweeps' / name)).check()
+    CaseRunner(read_sweep(ROOT / 'config/sweeps' / name)).check()
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_a_faulty_file_is_one_line(tmp_path, content, line):
 )  # fmt: skip
 def test_what_the_scene_lacks_is_said_before_anything_flies(tmp_path, keys, line):
     with pytest.raises(FluidSimError, match=line):
-        conduct(sweep_of(**keys), tmp_path)
+        run_sweep(sweep_of(**keys), tmp_path)
 
 
 # ---- one run -----------------------------------------------------------------------------------
@@ -144,7 +144,7 @@ def test_a_row_is_the_run_of_a_simulation():
         scene='sphere', timestep=0.001, integrator='RK4',
         vary={'current.x': {'values': [3.0]}, 'mass.sphere': {'values': [2.0]}},
     )  # fmt: skip
-    row = Flights(sweep).row(0)
+    row = CaseRunner(sweep).row(0)
     simulation = Simulation('sphere', timestep=0.001, integrator='RK4')
     scene = Scene.load('sphere')
     heavier = Simulation(
@@ -165,7 +165,7 @@ def test_a_run_that_diverges_is_a_row_like_others():
         scene='sphere', duration=2.0,
         vary={'timestep': {'values': [0.5, 0.002]}, 'current.x': {'values': [1e7]}},
     )  # fmt: skip
-    blown, sound = Flights(sweep).rows(0, 2)
+    blown, sound = CaseRunner(sweep).rows(0, 2)
     assert blown['status'] == 'diverged' and 'diverged at t =' in blown['message']
     assert blown['time_s'] < 2.0
     assert sound['status'] in ('ok', 'diverged')
@@ -178,7 +178,7 @@ def test_gains_and_errors_of_a_controller_in_the_loop():
         hold={'law': 'multirotor', 'target': [0, 0, 1.5]},
         vary={'gain.integral': {'values': [0.5, 6.0]}, 'wind.x': {'values': [6.0]}},
     )  # fmt: skip
-    weak, strong = Flights(sweep).rows(0, 2)
+    weak, strong = CaseRunner(sweep).rows(0, 2)
     # steady wind is held by the integrator: more of it, less error
     assert strong['hold.end_error_m'] < 0.5 * weak['hold.end_error_m']
     assert strong['hold.rms_error_m'] <= strong['hold.largest_error_m'] < 0.5
@@ -198,21 +198,21 @@ def test_gains_and_errors_of_a_controller_in_the_loop():
 )  # fmt: skip
 def test_runs_flown_together_have_the_bits_of_a_run_alone(scene, vary):
     sweep = sweep_of(scene=scene, runs=3, vary=vary)
-    flights = Flights(sweep)
-    total = len(flights.cases)
+    runner = CaseRunner(sweep)
+    total = len(runner.cases)
     # as text: a diverged run holds NaN, which equals nothing
-    assert repr(Flights(sweep).rows(0, total)) == repr([flights.row(i) for i in range(total)])
+    assert repr(CaseRunner(sweep).rows(0, total)) == repr([runner.row(i) for i in range(total)])
 
 
 def test_a_run_that_fails_takes_nothing_from_the_others(tmp_path):
     sweep = sweep_of(vary={'mass.sphere': {'values': [1, -1, -1, 2]}})
-    table = pq.read_table(conduct(sweep, tmp_path, workers=1)['table'])
+    table = pq.read_table(run_sweep(sweep, tmp_path, workers=1)['table'])
     assert table['status'].to_pylist() == ['ok', 'failed', 'failed', 'ok']
     assert 'must be above 0' in table['message'][1].as_py()
     heights = table['sphere.z_m'].to_pylist()
     assert heights[1:3] == [None, None] and heights[0] > heights[3]  # the heavier one falls faster
     # in one portion, the failed ones first
-    assert as_table(Flights(sweep).rows(1, 4))['sphere.z_m'].to_pylist() == [
+    assert as_table(CaseRunner(sweep).rows(1, 4))['sphere.z_m'].to_pylist() == [
         None,
         None,
         heights[3],
@@ -230,14 +230,14 @@ MANY = {
 def test_threads_keep_order_and_bits(tmp_path):
     sweep = sweep_of(**MANY)
     told = []
-    result = conduct(
+    result = run_sweep(
         sweep, tmp_path / 'a', workers=2, report=lambda done, total: told.append((done, total))
     )
     assert result['runs'] == 80 and result['status'] == {'ok': 80}
     assert told[0] == (0, 80) and told[-1] == (80, 80)
     table = pq.read_table(result['table']).to_pylist()
     assert [row['run'] for row in table] == list(range(80))
-    assert table == Flights(sweep).rows(0, 80)
+    assert table == CaseRunner(sweep).rows(0, 80)
 
 
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
@@ -245,22 +245,22 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     code = textwrap.dedent(f"""
         import os, signal
         from pathlib import Path
-        from fluid_sim_ros.sweep.run_sweep import conduct
+        from fluid_sim_ros.sweep.run_sweep import run_sweep
         from fluid_sim_ros.sweep.sweep_file import SweepFile
         def report(done, total):
             if done >= 20:
                 os.kill(os.getpid(), signal.SIGKILL)
-        conduct(SweepFile.model_validate({MANY!r}), Path({str(out)!r}), workers=2, report=report)
+        run_sweep(SweepFile.model_validate({MANY!r}), Path({str(out)!r}), workers=2, report=report)
     """)
     assert subprocess.run([sys.executable, '-c', code], check=False).returncode == -signal.SIGKILL
     assert not (out / 'results.parquet').exists()
     # half a portion, as a dying file system leaves it
     sorted((out / 'parts').glob('*.parquet'))[0].write_bytes(b'PAR1half')
-    result = conduct(sweep, out, workers=3)
+    result = run_sweep(sweep, out, workers=3)
     assert 0 < result['runs_kept_from_before'] < 80
-    assert pq.read_table(result['table']).to_pylist() == Flights(sweep).rows(0, 80)
+    assert pq.read_table(result['table']).to_pylist() == CaseRunner(sweep).rows(0, 80)
     with pytest.raises(ConfigError, match='holds the results of another sweep'):
-        conduct(sweep.model_copy(update={'seed': 4}), out)
+        run_sweep(sweep.model_copy(update={'seed': 4}), out)
 
 
 @pytest.mark.parametrize(
@@ -274,13 +274,13 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
 def test_an_address_without_ray_is_one_line(tmp_path, monkeypatch, address, line):
     monkeypatch.setitem(sys.modules, 'ray', types.ModuleType('ray'))  # not asked
     with pytest.raises(ConfigError, match=line):
-        conduct(sweep_of(), tmp_path, ray_address=address)
+        run_sweep(sweep_of(), tmp_path, ray_address=address)
 
 
 def test_without_ray_one_line_says_what_to_type(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, 'ray', None)
     with pytest.raises(MissingExtraError, match=r'--ray needs ray.*fluid_sim_ros\[sweep\]'):
-        conduct(sweep_of(), tmp_path, ray_address='local')
+        run_sweep(sweep_of(), tmp_path, ray_address='local')
 
 
 @pytest.mark.full
@@ -290,15 +290,15 @@ def test_ray_gives_the_same_bits_and_survives_a_killed_worker(tmp_path):
     killed = []
 
     def kill_one(done: int, total: int) -> None:
-        busy = [pid for pid in descendants(os.getpid()) if title(pid).startswith('ray::_fly')]
+        busy = [pid for pid in descendants(os.getpid()) if title(pid).startswith('ray::_run')]
         if done and busy and not killed:
             killed.append(busy[0])
             os.kill(busy[0], signal.SIGKILL)
 
-    result = conduct(sweep, tmp_path, workers=2, ray_address='local', report=kill_one)
+    result = run_sweep(sweep, tmp_path, workers=2, ray_address='local', report=kill_one)
     assert killed
     assert result['status'] == {'ok': 80}
-    assert pq.read_table(result['table']).to_pylist() == Flights(sweep).rows(0, 80)
+    assert pq.read_table(result['table']).to_pylist() == CaseRunner(sweep).rows(0, 80)
 
 
 def descendants(parent: int) -> list[int]:

@@ -14,10 +14,10 @@ from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.sweep.case_runs import COLUMNS, CaseRunner
 from fluid_sim_ros.sweep.compare import against_cpu
-from fluid_sim_ros.sweep.flight import COLUMNS, Flights
 from fluid_sim_ros.sweep.results import as_table
-from fluid_sim_ros.sweep.run_sweep import conduct
+from fluid_sim_ros.sweep.run_sweep import run_sweep
 from fluid_sim_ros.sweep.sweep_file import SweepFile
 from fluid_sim_ros.sweep.warp_models import motion_of, with_masses
 
@@ -36,7 +36,7 @@ def sweep_of(**keys) -> SweepFile:
 
 def fly_on_cpu(tmp_path, **keys):
     sweep = sweep_of(**keys)
-    result = conduct(sweep, tmp_path / 'out', device='cpu')
+    result = run_sweep(sweep, tmp_path / 'out', device='cpu')
     return sweep, result, pq.read_table(result['table'])
 
 
@@ -63,19 +63,19 @@ def fly_on_cpu(tmp_path, **keys):
 )
 def test_more_than_stock_forces_is_refused_in_one_line(tmp_path, keys, line):
     with pytest.raises(ConfigError, match=line) as caught:
-        conduct(sweep_of(**keys), tmp_path / 'out', device='cuda:0')
+        run_sweep(sweep_of(**keys), tmp_path / 'out', device='cuda:0')
     assert '\n' not in str(caught.value) and not (tmp_path / 'out').exists()
 
 
 def test_without_the_extra_one_line_says_what_to_type(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, 'warp', None)
     with pytest.raises(MissingExtraError, match=r'--device needs warp.*fluid_sim_ros\[warp\]'):
-        conduct(sweep_of(), tmp_path, device='cpu')
+        run_sweep(sweep_of(), tmp_path, device='cpu')
 
 
 def test_a_device_and_ray_exclude_each_other(tmp_path):
     with pytest.raises(ConfigError, match='--device cpu and --ray local: choose one'):
-        conduct(sweep_of(), tmp_path, device='cpu', ray_address='local')
+        run_sweep(sweep_of(), tmp_path, device='cpu', ray_address='local')
 
 
 # ---- parts that need no mujoco_warp ------------------------------------------------------------
@@ -104,13 +104,13 @@ def test_the_motion_of_worlds_is_what_the_library_observes():
 
 def test_the_comparison_says_by_how_much_and_where():
     sweep = sweep_of(vary={'current.x': {'values': [0, 1, 2]}})
-    flights = Flights(sweep)
-    rows = flights.rows(0, 3)
-    same = against_cpu(flights, as_table(rows))
+    runner = CaseRunner(sweep)
+    rows = runner.rows(0, 3)
+    same = against_cpu(runner, as_table(rows))
     assert same['runs'] == 3 and same['largest_relative'] == 0.0
     assert set(same['difference']) == {f'sphere.{column}' for column in COLUMNS}
     rows[1]['sphere.vx_m_s'] += 0.01
-    other = against_cpu(flights, as_table(rows))
+    other = against_cpu(runner, as_table(rows))
     assert other['difference']['sphere.vx_m_s'] == pytest.approx(0.01)
     assert other['largest_relative'] == other['relative']['sphere.vx_m_s'] > 0.001
     assert other['relative']['sphere.wx_rad_s'] is None  # a sphere that does not turn
@@ -141,8 +141,8 @@ def test_mujoco_warp_agrees_with_the_processor(tmp_path, keys):
     assert set(result['status']) == {'ok'} and result['device'] == 'cpu, float32'
     assert table['run'].to_pylist() == list(range(len(table)))
     assert set(table['device'].to_pylist()) == {'cpu, float32'}
-    assert not list(set(table.column_names) ^ {*Flights(sweep).row(0), 'device'})
-    check = against_cpu(Flights(sweep), table, most=len(table))
+    assert not list(set(table.column_names) ^ {*CaseRunner(sweep).row(0), 'device'})
+    check = against_cpu(CaseRunner(sweep), table, most=len(table))
     assert check['runs'] == len(table) and check['status_differs'] == 0
     assert check['largest_relative'] < 1e-4
 
@@ -168,14 +168,14 @@ def test_worlds_of_a_killed_sweep_are_kept_and_other_devices_are_not(tmp_path):
     sweep, whole, table = fly_on_cpu(tmp_path, runs=5, vary=vary)
     assert whole['status'] == {'ok': 5, 'failed': 5}
     # other portions, other numbers of worlds: the same bits
-    parts = conduct(sweep, tmp_path / 'parts', device='cpu', workers=3)
+    parts = run_sweep(sweep, tmp_path / 'parts', device='cpu', workers=3)
     assert pq.read_table(parts['table']).equals(table)
     sorted((tmp_path / 'parts/parts').glob('*.parquet'))[1].unlink()
-    again = conduct(sweep, tmp_path / 'parts', device='cpu', workers=2)
+    again = run_sweep(sweep, tmp_path / 'parts', device='cpu', workers=2)
     assert again['runs_kept_from_before'] == 7
     assert pq.read_table(again['table']).equals(table)
     with pytest.raises(ConfigError, match='another sweep or device'):
-        conduct(sweep, tmp_path / 'parts')
+        run_sweep(sweep, tmp_path / 'parts')
 
 
 @with_warp

@@ -11,7 +11,7 @@ def rung_colors(rungs: list[str]) -> dict[str, str]:
     return dict(zip(reversed(rungs), COLORS, strict=False))
 
 
-FATE_COLORS = {
+OUTCOME_COLORS = {
     'stable': '#009E73', 'underdamped': '#B7DDCB', 'energy loss': '#56B4E9',
     'energy gain': '#E69F00', 'blow-up': '#D55E00', 'reset': '#6B1F0B',
 }  # fmt: skip

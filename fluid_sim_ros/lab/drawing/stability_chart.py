@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
-from fluid_sim_ros.lab.drawing.colors import FATE_COLORS
+from fluid_sim_ros.lab.drawing.colors import OUTCOME_COLORS
 from fluid_sim_ros.lab.drawing.style import STYLE, save_figure
-from fluid_sim_ros.lab.outcomes import FATES, TOLERANCE
+from fluid_sim_ros.lab.outcomes import OUTCOMES, TOLERANCE
 from fluid_sim_ros.lab.problems.bodies import AXES, family
 from fluid_sim_ros.lab.problems.boundaries import predicted
 from fluid_sim_ros.lab.stability import values
@@ -45,7 +45,9 @@ def draw_map(result: dict[str, Any], path: Path) -> Path:
             'underdamped': f'too slow by > {TOLERANCE:.0%}',
             'reset': 'silent MuJoCo reset',
         }
-        patches = [Patch(color=FATE_COLORS[word], label=names.get(word, word)) for word in FATES]
+        patches = [
+            Patch(color=OUTCOME_COLORS[word], label=names.get(word, word)) for word in OUTCOMES
+        ]
         figure.legend(
             handles=[*patches, *lines.values()], loc='outside lower center', ncols=9, fontsize=8
         )
@@ -57,10 +59,10 @@ def _cells(axes: Axes, result: dict[str, Any], integrator: str) -> None:
     grid = np.full((len(y), len(x)), np.nan)
     for row in result['map']:
         if row['integrator'] == integrator:
-            grid[y.index(row['y']), x.index(row['x'])] = FATES.index(row['fate'])
+            grid[y.index(row['y']), x.index(row['x'])] = OUTCOMES.index(row['outcome'])
     edges = [_logspace(result[f'{axis}_range'], result['cells'] + 1) for axis in ('x', 'y')]
-    colors = ListedColormap([FATE_COLORS[word] for word in FATES])
-    axes.pcolormesh(*edges, grid, cmap=colors, vmin=-0.5, vmax=len(FATES) - 0.5)
+    colors = ListedColormap([OUTCOME_COLORS[word] for word in OUTCOMES])
+    axes.pcolormesh(*edges, grid, cmap=colors, vmin=-0.5, vmax=len(OUTCOMES) - 0.5)
     axes.set_xscale('log')
     axes.set_yscale('log')
 

@@ -95,7 +95,7 @@ class Problem:
         return self.rungs[name]
 
 
-class Flight(NamedTuple):
+class Trajectory(NamedTuple):
     """
     A run of one model.
 
@@ -108,9 +108,9 @@ class Flight(NamedTuple):
     failed_at: float | None = None
 
 
-def fly(
+def run_rung(
     problem: Problem, rung: Rung, integrator: str, timestep: float, nudge: float = 0.0
-) -> Flight:
+) -> Trajectory:
     """
     Run one model over the problem's duration, every step watched.
 
@@ -127,8 +127,8 @@ def fly(
             simulation.step(between)
         states.append(observed(simulation))
     except DivergedError as error:
-        return Flight(np.array(states), str(error), error.time)
-    return Flight(np.array(states))
+        return Trajectory(np.array(states), str(error), error.time)
+    return Trajectory(np.array(states))
 
 
 def observed(simulation: Simulation) -> Array:

@@ -94,7 +94,7 @@ def resimulate(
     keep: Sequence[str] = (),
 ) -> Resimulation:
     """
-    Fly a log again.
+    Run a log's flight again.
 
     Parameters
     ----------
@@ -116,14 +116,14 @@ def resimulate(
     """
     description = log.description()
     with tempfile.TemporaryDirectory() as folder:
-        flight = _Flight(description, Path(folder), dict(changes or {}))
+        repetition = _Repetition(description, Path(folder), dict(changes or {}))
         result = Resimulation(notes=_notes(description, log))
-        comparer = _Comparer(log, flight, tolerance, keep, result)
+        comparer = _Comparer(log, repetition, tolerance, keep, result)
         try:
             for message in log.messages():
-                if flight.take(message):
+                if repetition.take(message):
                     result.commands += 1
-                elif message.topic in flight.states:
+                elif message.topic in repetition.states:
                     comparer.take(message)
         except DivergedError as error:
             if not changes:
@@ -132,7 +132,7 @@ def resimulate(
     return result
 
 
-class _Flight:
+class _Repetition:
     """The new simulation, brought along message by message."""
 
     def __init__(self, description: RunDescription, folder: Path, changes: dict[str, Any]) -> None:
@@ -237,25 +237,27 @@ class _Comparer:
     def __init__(
         self,
         log: Log,
-        flight: _Flight,
+        repetition: _Repetition,
         tolerance: float,
         keep: Sequence[str],
         result: Resimulation,
     ) -> None:
         self._definitions = {topic.name: topic.definition for topic in log.topics.values()}
-        self._flight = flight
+        self._repetition = repetition
         self._tolerance = tolerance
         self._result = result
-        self._kept = {name for name in flight.states if name.endswith(tuple(keep))} if keep else ()
+        self._kept = (
+            {name for name in repetition.states if name.endswith(tuple(keep))} if keep else ()
+        )
 
     def take(self, message: LogMessage) -> None:
         """Compare one recorded state with the new one."""
         result = self._result
-        data = self._flight.state(message, self._flight.states[message.topic])
+        data = self._repetition.state(message, self._repetition.states[message.topic])
         if data and message.topic in self._kept:
             pairs = result.pairs.setdefault(message.topic, [])
             pairs.append((message.log_ns, message.data, data))
-        if self._flight.changed:
+        if self._repetition.changed:
             return
         result.compared += 1
         if data != message.data:

@@ -16,7 +16,7 @@ from fluid_sim_ros.simulation.batch import BatchRuns
 from fluid_sim_ros.simulation.engine import Largest
 from fluid_sim_ros.simulation.plant import plant_of
 from fluid_sim_ros.step_clock import whole_steps
-from fluid_sim_ros.sweep.hold_controller import Holding, holding
+from fluid_sim_ros.sweep.hold_controller import HoldController, hold_controller
 from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, Value
 
 #: Most runs of a portion; as many are lost, per worker, with a process that is killed.
@@ -39,7 +39,7 @@ Row = dict[str, Any]
 
 
 @dataclasses.dataclass
-class Ready:
+class CompiledRun:
     """
     A compiled simulation, its run in steps, and the controller in its loop.
 
@@ -50,13 +50,13 @@ class Ready:
     simulation: Simulation
     steps: int
     period: int
-    holding: Holding | None
+    controller: HoldController | None
     largest: Largest
     columns: tuple[str, ...]
     many: BatchRuns | None
 
 
-class Flights:
+class CaseRunner:
     """
     Runs the cases of a sweep; each thread or process has its own.
 
@@ -70,7 +70,7 @@ class Flights:
     def __init__(self, sweep: SweepFile) -> None:
         self._sweep = sweep
         self._scene = Scene.load(sweep.scene)
-        self._ready: OrderedDict[tuple[Any, ...], Ready] = OrderedDict()
+        self._ready: OrderedDict[tuple[Any, ...], CompiledRun] = OrderedDict()
         self._plant = plant_of(self._scene, sweep.hold.vehicle) if sweep.hold else None
         self.cases = Cases(sweep)
 
@@ -87,8 +87,8 @@ class Flights:
         values = self.cases[0]
         ready = self.prepare(values)
         start(ready.simulation, values)
-        if ready.holding is not None:
-            ready.holding.begin(values)
+        if ready.controller is not None:
+            ready.controller.begin(values)
         return ready.steps
 
     def rows(self, begin: int, end: int) -> list[Row]:
@@ -98,27 +98,27 @@ class Flights:
         Runs that nothing disturbs on their way (no controller, event or gait) are flown together.
         """
         rows: list[Row] = []
-        together = _Together()
+        batch = _Batch()
         for index in range(begin, end):
             values = self.cases[index]
             try:
                 ready = self.prepare(values)
                 if ready.many is None:
-                    rows += [*self._landed(together), self.row(index)]
+                    rows += [*self._end_batch(batch), self.row(index)]
                     continue
-                if not together.takes(ready):
-                    rows += self._landed(together)
+                if not batch.takes(ready):
+                    rows += self._end_batch(batch)
                 start(ready.simulation, values)
-                together.take(ready, row_begun(index, values))
+                batch.take(ready, row_begun(index, values))
             except (FluidSimError, *_UNEXPECTED):
-                rows += [*self._landed(together), self.row(index)]
-        return rows + self._landed(together)
+                rows += [*self._end_batch(batch), self.row(index)]
+        return rows + self._end_batch(batch)
 
-    def _landed(self, together: '_Together') -> list[Row]:
+    def _end_batch(self, batch: '_Batch') -> list[Row]:
         """Fly the runs that were taken up together; where that fails, one by one."""
-        begun = [int(row['run']) for row in together.begun]
+        begun = [int(row['run']) for row in batch.begun]
         try:
-            return together.fly()
+            return batch.run()
         except _UNEXPECTED:
             return [self.row(index) for index in begun]
 
@@ -133,7 +133,7 @@ class Flights:
         row = begin = row_begun(index, values)
         for _ in range(_TRIES):
             try:
-                return begin | self._fly(values)
+                return begin | self._run(values)
             except FluidSimError as error:
                 return begin | {'status': 'failed', 'message': str(error)}
             except _UNEXPECTED as error:  # isolated: the other runs go on
@@ -141,9 +141,9 @@ class Flights:
                 self._ready.clear()
         return row
 
-    def _fly(self, values: Mapping[str, Value]) -> Row:
+    def _run(self, values: Mapping[str, Value]) -> Row:
         ready = self.prepare(values)
-        simulation, holds, largest = ready.simulation, ready.holding, ready.largest
+        simulation, holds, largest = ready.simulation, ready.controller, ready.largest
         start(simulation, values)
         largest.begin()
         row: Row = {}
@@ -163,7 +163,7 @@ class Flights:
         row |= columns(ready, motion, largest.values)
         return row if holds is None else row | holds.columns()
 
-    def prepare(self, values: Mapping[str, Value]) -> Ready:
+    def prepare(self, values: Mapping[str, Value]) -> CompiledRun:
         """Return the simulation of a case, compiled at most once for equal settings."""
         masses = tuple((k, float(v)) for k, v in values.items() if k.startswith('mass.'))
         settings = {
@@ -181,7 +181,7 @@ class Flights:
 
     def _compile(
         self, settings: Mapping[str, Any], seed: int, masses: Mapping[str, float]
-    ) -> Ready:
+    ) -> CompiledRun:
         sweep = self._sweep
         factors = {key.removeprefix('mass.'): factor for key, factor in masses.items()}
         scene = dataclasses.replace(self._scene, masses=factors)
@@ -193,11 +193,11 @@ class Flights:
             period = max(1, round(1.0 / (sweep.sample_rate * timestep)))
             undisturbed = simulation.next_change >= steps
             many = BatchRuns(simulation, steps, period, LARGEST_PORTION) if undisturbed else None
-            return Ready(simulation, steps, period, None, simulation.largest(), names, many)
+            return CompiledRun(simulation, steps, period, None, simulation.largest(), names, many)
         plant, vehicle = self._plant
-        holds = holding(sweep.hold, plant, vehicle.name, simulation)
+        holds = hold_controller(sweep.hold, plant, vehicle.name, simulation)
         largest = simulation.largest()
-        return Ready(simulation, steps, holds.period, holds, largest, names, None)
+        return CompiledRun(simulation, steps, holds.period, holds, largest, names, None)
 
 
 _FLOWS = {'wind': Simulation.set_wind, 'current': Simulation.set_current}
@@ -225,32 +225,32 @@ def row_begun(index: int, values: Mapping[str, Value]) -> Row:
     return {'run': index, **values, 'status': 'ok', 'message': '', 'time_s': 0.0}
 
 
-def columns(ready: Ready, motion: Array, largest: Array) -> Row:
+def columns(ready: CompiledRun, motion: Array, largest: Array) -> Row:
     """Return what came out, from the vehicles' motion and its largest values."""
     out = np.concatenate((motion, largest), axis=1).ravel().tolist()
     return dict(zip(ready.columns, out, strict=True))
 
 
-class _Together:
+class _Batch:
     """Undisturbed runs of one model, taken up one after the other and flown in one call."""
 
     def __init__(self) -> None:
-        self._ready: Ready | None = None
+        self._ready: CompiledRun | None = None
         self.begun: list[Row] = []
 
-    def takes(self, ready: Ready) -> bool:
+    def takes(self, ready: CompiledRun) -> bool:
         """Return whether one more run of this model can join."""
         fits = self._ready is None or self._ready is ready
         return fits and len(self.begun) < LARGEST_PORTION
 
-    def take(self, ready: Ready, begun: Row) -> None:
+    def take(self, ready: CompiledRun, begun: Row) -> None:
         """Take up the run that the simulation stands at the start of."""
         assert ready.many is not None
         ready.many.take()
         self._ready = ready
         self.begun.append(begun)
 
-    def fly(self) -> list[Row]:
+    def run(self) -> list[Row]:
         """Fly them; return their rows and be empty."""
         ready, begun = self._ready, self.begun
         self._ready, self.begun = None, []
