@@ -14,7 +14,7 @@ import pytest
 from flights import fly
 from mcap.reader import make_reader
 
-from fluid_sim_ros import cli
+from fluid_sim_ros.cli.main import WRONG_INPUT, main
 from fluid_sim_ros.recording.decode import columns, fields
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.inspect import info, repair
@@ -186,12 +186,12 @@ def test_a_repaired_log_is_sound(tmp_path, chunked):
 def test_what_is_no_log_is_one_line(tmp_path, capsys, content, line):
     path = tmp_path / 'a.mcap'
     path.write_bytes(content)
-    assert cli.main(['info', str(path)]) == cli.WRONG_INPUT
+    assert main(['info', str(path)]) == WRONG_INPUT
     assert line in capsys.readouterr().err
 
 
 def test_info_counts_and_says_what_is_missing(flight, tmp_path, capsys):
-    assert cli.main(['info', str(flight), '--json', '-']) == 0
+    assert main(['info', str(flight), '--json', '-']) == 0
     result = json.loads(capsys.readouterr().out)
     assert result['run']['scene'] == 'quadrotor' and result['complete']
     assert result['topics']['/x500/odom'] == {
@@ -199,7 +199,7 @@ def test_info_counts_and_says_what_is_missing(flight, tmp_path, capsys):
     }  # fmt: skip
     cut = tmp_path / 'cut.mcap'
     cut.write_bytes(flight.read_bytes()[:-100])
-    assert cli.main(['info', str(cut)]) == 1
+    assert main(['info', str(cut)]) == 1
     assert 'missing' in ' '.join(capsys.readouterr().out.split())
     assert info(cut)['messages'] == result['messages']
 

@@ -5,7 +5,7 @@ import pytest
 from flights import fly
 from PIL import Image
 
-from fluid_sim_ros import cli
+from fluid_sim_ros.cli.main import WRONG_INPUT, main
 from fluid_sim_ros.recording.pictures.render import FilmOptions, render
 from fluid_sim_ros.recording.reader import open_log
 
@@ -20,7 +20,7 @@ def log(tmp_path_factory):
 def test_a_gif_has_its_pictures_and_they_move(log, tmp_path):
     out = tmp_path / 'a.gif'
     arguments = ['--out', str(out), '--fps', '10', '--size', '160', '120']
-    assert cli.main(['render', str(log), *arguments]) == 0
+    assert main(['render', str(log), *arguments]) == 0
     with Image.open(out) as film:
         assert film.size == (160, 120) and film.n_frames == 6
         first = np.asarray(film.convert('RGB'), dtype=float)
@@ -63,5 +63,5 @@ def test_force_arrows_are_drawn(tmp_path):
 )
 def test_a_wrong_option_is_one_line(log, tmp_path, monkeypatch, capsys, arguments, line):
     monkeypatch.chdir(tmp_path)
-    assert cli.main(['render', str(log), *arguments]) == cli.WRONG_INPUT
+    assert main(['render', str(log), *arguments]) == WRONG_INPUT
     assert line in capsys.readouterr().err
