@@ -184,3 +184,7 @@ class SensorsFile(Strict):
     rangefinder: RangefinderFile | None = None
     dvl: DvlFile | None = None
     dither: bool = False
+
+
+#: The sensors that a vehicle may have: the keys of ``sensors:`` but for its settings.
+KINDS = tuple(key for key in SensorsFile.model_fields if key != 'dither')

@@ -8,10 +8,11 @@ from fluid_sim_ros.physics.environment.atmosphere import DENSITY
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import AirspeedFile
+from fluid_sim_ros.sensors.reading import pressure_reading
 from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 
-class Airspeed(Sensor):
+class Airspeed(Sensor, file=AirspeedFile):
     """
     Differential pressure q = rho v |v| / 2 of the flow along x of the mount, wind included.
 
@@ -30,10 +31,12 @@ class Airspeed(Sensor):
     """
 
     config: AirspeedFile
+    channels = (('pressure', 1),)
+    readings = (pressure_reading('airspeed/pressure'),)
     differential_pressure = airspeed = 0.0
 
     def __init__(self, carrier: Carrier, config: AirspeedFile) -> None:
-        super().__init__(carrier, config, ((config.pressure, 1),))
+        super().__init__(carrier, config)
         fluids = Fluids.of(carrier.simulation.model, carrier.simulation.streams)
         self._surface, self._density = fluids.surface, fluids.air_density
         if not self._density > 0:

@@ -1,14 +1,21 @@
 """Sensors that look along rays: rangefinder and Doppler velocity log."""
 
 import math
-from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.schema.sensors import Channel, DvlFile, RangefinderFile, SensorFile
+from fluid_sim_ros.schema.sensors import DvlFile, RangefinderFile, SensorFile
+from fluid_sim_ros.sensors.reading import (
+    INFRARED,
+    RANGE,
+    ULTRASOUND,
+    VELOCITY,
+    Quantity,
+    Reading,
+)
 from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 #: Rays step over the geoms of the vehicle's moving parts, at most this many.
@@ -24,10 +31,8 @@ class _Looking(Sensor):
 
     needs_forces = True
 
-    def __init__(
-        self, carrier: Carrier, config: SensorFile, channels: Sequence[tuple[Channel, int]]
-    ) -> None:
-        super().__init__(carrier, config, channels)
+    def __init__(self, carrier: Carrier, config: SensorFile) -> None:
+        super().__init__(carrier, config)
         self._geom = np.zeros(1, dtype=np.int32)
         self._base = carrier.vehicle.body_id
         self._root = carrier.simulation.model.body_rootid[self._base]
@@ -49,7 +54,7 @@ class _Looking(Sensor):
         return math.inf
 
 
-class Rangefinder(_Looking):
+class Rangefinder(_Looking, file=RangefinderFile):
     """
     Distance to the nearest geom along a ray.
 
@@ -63,11 +68,18 @@ class Rangefinder(_Looking):
     """
 
     config: RangefinderFile
+    channels = (('distance', 1),)
+    readings = (
+        Reading(
+            'range', RANGE, (Quantity('values', 'm', ('distance',)),),
+            constants={'radiation_type': INFRARED},
+        ),
+    )  # fmt: skip
     infinite_beyond = True
     distance = math.inf
 
     def __init__(self, carrier: Carrier, config: RangefinderFile) -> None:
-        super().__init__(carrier, config, ((config.distance, 1),))
+        super().__init__(carrier, config)
         direction = np.array(config.direction)
         length = float(np.linalg.norm(direction))
         if not length > 0:
@@ -84,7 +96,7 @@ class Rangefinder(_Looking):
         self.distance = float(self.values[0])
 
 
-class Dvl(_Looking):
+class Dvl(_Looking, file=DvlFile):
     """
     Velocity over the bed.
 
@@ -97,15 +109,25 @@ class Dvl(_Looking):
         [m/s], axes of the mount, shape (3,).
     altitude
         Mean height of the sensor over what the beams meet, along -z of its axes [m].
+    height
+        The same as an array, shape (1,).
 
     """
 
     config: DvlFile
+    channels = (('velocity', 3), ('altitude', 1))
+    readings = (
+        Reading('dvl/twist', VELOCITY, (Quantity('velocity', 'm/s', ('velocity',)),)),
+        Reading(
+            'dvl/altitude', RANGE, (Quantity('height', 'm', ('altitude',)),),
+            constants={'radiation_type': ULTRASOUND},
+        ),
+    )  # fmt: skip
     altitude = 0.0
 
     def __init__(self, carrier: Carrier, config: DvlFile) -> None:
-        super().__init__(carrier, config, ((config.velocity, 3), (config.altitude, 1)))
-        self.velocity = self.values[:3]
+        super().__init__(carrier, config)
+        self.velocity, self.height = self.values[:3], self.values[3:]
         tilt = math.radians(config.beam_angle)
         self._down = math.cos(tilt)
         out = math.sin(tilt) / math.sqrt(2.0)

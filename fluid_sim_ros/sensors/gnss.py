@@ -6,10 +6,11 @@ from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import GnssFile
 from fluid_sim_ros.sensors.geodesy import LocalFrame
+from fluid_sim_ros.sensors.reading import NAV_SAT_FIX, VELOCITY, Quantity, Reading
 from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
 
-class Gnss(Sensor):
+class Gnss(Sensor, file=GnssFile):
     """
     Position and velocity of the antenna; without a reading while it is under water.
 
@@ -25,11 +26,17 @@ class Gnss(Sensor):
     """
 
     config: GnssFile
+    channels = (('horizontal', 2), ('vertical', 1), ('velocity', 3))
+    readings = (
+        Reading('gps/fix', NAV_SAT_FIX, (
+            Quantity('geodetic', ('deg', 'deg', 'm'), ('horizontal', 'horizontal', 'vertical')),
+        )),
+        Reading('gps/vel', VELOCITY, (Quantity('velocity_w', 'm/s', ('velocity',)),), frame='map'),
+    )  # fmt: skip
     latitude = longitude = altitude = 0.0
 
     def __init__(self, carrier: Carrier, config: GnssFile) -> None:
-        channels = ((config.horizontal, 2), (config.vertical, 1), (config.velocity, 3))
-        super().__init__(carrier, config, channels)
+        super().__init__(carrier, config)
         self.position_w, self.velocity_w = self.values[:3], self.values[3:]
         self.geodetic = np.zeros(3)
         self._surface = Fluids.of(carrier.simulation.model, carrier.simulation.streams).surface

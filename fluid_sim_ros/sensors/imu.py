@@ -3,13 +3,11 @@
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.schema.sensors import ImuFile
+from fluid_sim_ros.sensors.reading import IMU, Quantity, Reading
 from fluid_sim_ros.sensors.sensor import Carrier, Sensor
 
-#: Dither of an IMU without resolution: below the noise of any, above the rounding of float32.
-_DITHER = (1e-3, 1e-4)  # [m/s^2], [rad/s]
 
-
-class Imu(Sensor):
+class Imu(Sensor, file=ImuFile):
     """
     Accelerometer and gyroscope in one place.
 
@@ -31,11 +29,19 @@ class Imu(Sensor):
     """
 
     config: ImuFile
+    channels = (('accelerometer', 3), ('gyroscope', 3))
+    # below the noise of any, above the rounding of float32
+    dither = (1e-3, 1e-4)  # [m/s^2], [rad/s]
+    readings = (
+        Reading('imu/data', IMU, (
+            Quantity('angular_velocity', 'rad/s', ('gyroscope',)),
+            Quantity('specific_force', 'm/s^2', ('accelerometer',)),
+        )),
+    )  # fmt: skip
     needs_forces = True
 
     def __init__(self, carrier: Carrier, config: ImuFile) -> None:
-        channels = ((config.accelerometer, 3), (config.gyroscope, 3))
-        super().__init__(carrier, config, channels, _DITHER)
+        super().__init__(carrier, config)
         self.specific_force = self.values[:3]
         self.angular_velocity = self.values[3:]
 

@@ -7,10 +7,8 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.scene import Home
 from fluid_sim_ros.schema.sensors import MagnetometerFile
+from fluid_sim_ros.sensors.reading import MAGNETIC_FIELD, Quantity, Reading
 from fluid_sim_ros.sensors.sensor import Carrier, Sensor
-
-#: Dither of a magnetometer without resolution [T]: 1 mG.
-_DITHER = (1e-7,)
 
 
 def earth_field(home: Home) -> Array:
@@ -37,7 +35,7 @@ def earth_field(home: Home) -> Array:
     return np.array([field.y, field.x, -field.z]) * 1e-9
 
 
-class Magnetometer(Sensor):
+class Magnetometer(Sensor, file=MagnetometerFile):
     """
     The Earth's field in the axes of the mount; the vehicle's own magnetism is left out.
 
@@ -49,9 +47,12 @@ class Magnetometer(Sensor):
     """
 
     config: MagnetometerFile
+    channels = (('field', 3),)
+    dither = (1e-7,)  # [T]: 1 mG
+    readings = (Reading('imu/mag', MAGNETIC_FIELD, (Quantity('field', 'T', ('field',)),)),)
 
     def __init__(self, carrier: Carrier, config: MagnetometerFile) -> None:
-        super().__init__(carrier, config, ((config.field, 3),), _DITHER)
+        super().__init__(carrier, config)
         self.field = self.values
         self.field_w = earth_field(carrier.simulation.scene.home)
 

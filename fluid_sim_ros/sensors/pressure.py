@@ -9,10 +9,8 @@ from fluid_sim_ros.physics.environment.atmosphere import (
 )
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import BarometerFile, PressureFile
+from fluid_sim_ros.sensors.reading import pressure_reading
 from fluid_sim_ros.sensors.sensor import Carrier, Sensor
-
-#: Dither of a pressure sensor without resolution [Pa]: 8 cm of air, 0.1 mm of water.
-_DITHER = (1.0,)
 
 
 class _Static(Sensor):
@@ -26,9 +24,11 @@ class _Static(Sensor):
     """
 
     config: BarometerFile | PressureFile
+    channels = (('pressure', 1),)
+    dither = (1.0,)  # [Pa]: 8 cm of air, 0.1 mm of water
 
     def __init__(self, carrier: Carrier, config: BarometerFile | PressureFile) -> None:
-        super().__init__(carrier, config, ((config.pressure, 1),), _DITHER)
+        super().__init__(carrier, config)
         self._fluids = Fluids.of(carrier.simulation.model, carrier.simulation.streams)
         self._home = carrier.simulation.scene.home.altitude
         gravity = -float(carrier.simulation.model.opt.gravity[2])
@@ -46,7 +46,7 @@ class _Static(Sensor):
         return True
 
 
-class Barometer(_Static):
+class Barometer(_Static, file=BarometerFile):
     """
     A barometer.
 
@@ -61,6 +61,7 @@ class Barometer(_Static):
 
     """
 
+    readings = (pressure_reading('pressure'),)
     altitude = 0.0
     temperature = 0.0
 
@@ -70,7 +71,7 @@ class Barometer(_Static):
         self.temperature = standard_temperature(self.altitude)
 
 
-class WaterPressure(_Static):
+class WaterPressure(_Static, file=PressureFile):
     """
     An absolute pressure sensor of a vehicle in water.
 
@@ -83,6 +84,7 @@ class WaterPressure(_Static):
 
     """
 
+    readings = (pressure_reading('water/pressure'),)
     depth = 0.0
 
     def __init__(self, carrier: Carrier, config: PressureFile) -> None:

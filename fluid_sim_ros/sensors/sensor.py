@@ -2,7 +2,6 @@
 
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -13,8 +12,9 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
-from fluid_sim_ros.schema.sensors import Channel, SensorFile
+from fluid_sim_ros.schema.sensors import SensorFile
 from fluid_sim_ros.sensors.noise import Errors
+from fluid_sim_ros.sensors.reading import Reading
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps, whole_steps
 
@@ -121,18 +121,20 @@ class SavedSensor:
     pending: tuple[tuple[int, int, Array], ...]
 
 
+#: Class by the kind of sensor in the file: every class with ``file=`` in its head.
+CLASSES: dict[str, type['Sensor']] = {}
+
+
 class Sensor(ABC):
     """
     One sensor; ``values`` and the arrays of the subclasses are overwritten by each reading.
 
     Parameters
     ----------
-    carrier, config
-        Whose, and which errors, rate and latency it has.
-    channels
-        What it measures: errors and number of axes.
-    dither
-        Quantum per channel where it is to be dithered and has no resolution.
+    carrier
+        The vehicle that it sits on.
+    config
+        Its place, rate, latency and errors.
 
     Attributes
     ----------
@@ -165,18 +167,31 @@ class Sensor(ABC):
 
     """
 
+    #: What it measures: keys of its file that state the errors, and their numbers of axes.
+    channels: ClassVar[tuple[tuple[str, int], ...]] = ()
+    #: Quantum of each channel where it is to be dithered and has no resolution; (): no dither.
+    dither: ClassVar[tuple[float, ...]] = ()
+    #: Its topics.
+    readings: ClassVar[tuple[Reading, ...]] = ()
     #: Its numbers need ``Simulation.observe(forces=True)``.
     needs_forces: ClassVar[bool] = False
     #: Readings beyond the range are infinite instead of the range's end.
     infinite_beyond: ClassVar[bool] = False
 
-    def __init__(
-        self,
-        carrier: Carrier,
-        config: SensorFile,
-        channels: Sequence[tuple[Channel, int]],
-        dither: Sequence[float] = (),
-    ) -> None:
+    def __init_subclass__(cls, file: type[SensorFile] | None = None) -> None:
+        """
+        Enter a class into the table of sensors.
+
+        Parameters
+        ----------
+        file
+            Schema of the sensor that the class measures; None for a base of others.
+
+        """
+        if file is not None:
+            CLASSES[file.kind] = cls
+
+    def __init__(self, carrier: Carrier, config: SensorFile) -> None:
         simulation, vehicle = carrier.simulation, carrier.vehicle
         where = f"{simulation.scene.name}: vehicle '{vehicle.name}': sensors.{config.kind}"
         self.where = where
@@ -189,9 +204,10 @@ class Sensor(ABC):
         self._simulation, self._state = simulation, carrier.state
         self._arm = self.mount.position_b.tolist()
         self._matrix = np.empty(9)
+        channels = [(getattr(config, key), count) for key, count in self.channels]
         self._errors = Errors(
             channels, float(config.rate), carrier.seed, f'{vehicle.name}/{config.kind}',
-            dither if carrier.dither else (), self.infinite_beyond,
+            self.dither if carrier.dither else (), self.infinite_beyond,
         )  # fmt: skip
         width = sum(count for _, count in channels)
         self.values = np.zeros(width)

@@ -1,17 +1,24 @@
 """All sensors of a vehicle, sampled at step boundaries."""
 
 import math
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
 
-from fluid_sim_ros.schema.sensors import SensorsFile
+from fluid_sim_ros.schema.sensors import KINDS, SensorsFile
 from fluid_sim_ros.sensors.airspeed import Airspeed
 from fluid_sim_ros.sensors.beams import Dvl, Rangefinder
 from fluid_sim_ros.sensors.gnss import Gnss
 from fluid_sim_ros.sensors.imu import Imu
 from fluid_sim_ros.sensors.magnetometer import Magnetometer
 from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
-from fluid_sim_ros.sensors.sensor import Carrier, SavedSensor, Sensor
+from fluid_sim_ros.sensors.sensor import CLASSES, Carrier, SavedSensor, Sensor
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
+
+# every module of this folder enters its sensors into the table
+for _module in iter_modules([str(Path(__file__).parent)]):
+    import_module(f'{__package__}.{_module.name}')
 
 
 class SensorSuite:
@@ -36,7 +43,7 @@ class SensorSuite:
     Attributes
     ----------
     imu, magnetometer, barometer, pressure, gnss, airspeed, rangefinder, dvl
-        Each a sensor, or None where the vehicle has none.
+        Each a sensor, or None where the vehicle has none: one for each key of ``sensors:``.
     sensors
         Those that there are.
     period
@@ -48,6 +55,15 @@ class SensorSuite:
         If there is no such vehicle, or a sensor does not fit the model.
 
     """
+
+    imu: Imu | None
+    magnetometer: Magnetometer | None
+    barometer: Barometer | None
+    pressure: WaterPressure | None
+    gnss: Gnss | None
+    airspeed: Airspeed | None
+    rangefinder: Rangefinder | None
+    dvl: Dvl | None
 
     def __init__(
         self,
@@ -65,20 +81,13 @@ class SensorSuite:
             simulation, target, simulation.observe(forces=False)[index],
             simulation.seed if seed is None else seed, config.dither,
         )  # fmt: skip
-        c = config
-        self.imu = Imu(carrier, c.imu) if c.imu else None
-        self.magnetometer = Magnetometer(carrier, c.magnetometer) if c.magnetometer else None
-        self.barometer = Barometer(carrier, c.barometer) if c.barometer else None
-        self.pressure = WaterPressure(carrier, c.pressure) if c.pressure else None
-        self.gnss = Gnss(carrier, c.gnss) if c.gnss else None
-        self.airspeed = Airspeed(carrier, c.airspeed) if c.airspeed else None
-        self.rangefinder = Rangefinder(carrier, c.rangefinder) if c.rangefinder else None
-        self.dvl = Dvl(carrier, c.dvl) if c.dvl else None
-        each = (
-            self.imu, self.magnetometer, self.barometer, self.pressure, self.gnss, self.airspeed,
-            self.rangefinder, self.dvl,
-        )  # fmt: skip
-        self.sensors: tuple[Sensor, ...] = tuple(sensor for sensor in each if sensor)
+        sensors: list[Sensor] = []
+        for kind in KINDS:
+            file = getattr(config, kind)
+            sensor = CLASSES[kind](carrier, file) if file else None
+            setattr(self, kind, sensor)
+            sensors += [sensor] if sensor else []
+        self.sensors = tuple(sensors)
         periods = [steps for s in self.sensors for steps in (s.period, s.latency)]
         self.period = math.gcd(*periods) or NEVER
 
