@@ -130,7 +130,7 @@ TEST = [
     *CHARTS,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
-# Other simulators, for benchmarks/peer_simulators.py alone.
+# Other simulators, for benchmarks/peers/peer_simulators.py alone.
 PEERS = ['jsbsim>=1.3.3,<2', 'rotorpy>=3,<4']
 # colcon from PyPI in the smallest set that builds, tests and reports an ament_python package.
 DEV = [

@@ -107,10 +107,15 @@ def number(value: Any) -> str:
     return f'{value:.3g}' if abs(value) < 1e4 else f'{value:.4g}'
 
 
+def script_of(name: str) -> Path | None:
+    """Return the script of a benchmark, which stands in the folder of its subject."""
+    return next((ROOT / 'benchmarks').glob(f'*/{name}.py'), None)
+
+
 def description(name: str, count: int) -> str:
     """Return the first paragraphs of a benchmark's docstring."""
-    script = ROOT / 'benchmarks' / f'{name}.py'
-    if not script.exists():
+    script = script_of(name)
+    if script is None:
         return ''
     text = ast.get_docstring(ast.parse(script.read_text(encoding='utf-8'))) or ''
     paragraphs = [' '.join(part.split()) for part in text.split('\n\n')]
@@ -137,7 +142,7 @@ def section(name: str, result: dict[str, Any], entries: dict[str, Any], folder: 
     parts += [
         f'![{path.stem}]({os.path.relpath(path, here)})' for path in pictures if path.exists()
     ]
-    source = os.path.relpath(ROOT / 'benchmarks' / f'{name}.py', here)
+    source = os.path.relpath(script_of(name) or ROOT / 'benchmarks', here)
     data = os.path.relpath(folder / f'{name}.json', here)
     load = f', load average {result["load_average"]:.1f}' if 'load_average' in result else ''
     measured = f'{result.get("date", "date unknown")[:10]}, commit {commit(result)}{load}'

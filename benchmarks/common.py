@@ -13,7 +13,10 @@ from typing import Any
 
 import mujoco
 
-ROOT = Path(__file__).resolve().parents[1]
+from test.support.paths import ROOT
+
+__all__ = ['RESULTS', 'ROOT', 'arguments', 'commit', 'machine', 'wall_seconds', 'write']
+
 RESULTS = ROOT / 'benchmarks' / 'results'
 
 
@@ -55,7 +58,7 @@ def commit() -> str:
         )
 
     head = git('rev-parse', '--short=12', 'HEAD').stdout.strip()
-    measured = ('fluid_sim_ros', 'models', 'config', 'benchmarks/*.py')
+    measured = ('fluid_sim_ros', 'models', 'config', 'benchmarks/*.py', 'test/support')
     changed = head and git('diff', '--quiet', 'HEAD', '--', *measured).returncode
     return (head or 'unknown') + ('-dirty' if changed else '')
 

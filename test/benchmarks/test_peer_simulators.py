@@ -1,13 +1,19 @@
 import sys
 
 import numpy as np
-import peer_simulators as peers
 import pytest
-from peer_mujoco import own_runs, stock_runs
-from peer_picture import draw
-from peer_tasks import TASKS, TIMES, air_rates, air_start, scipy_runs
-from peer_underwater import lagged_runs, own_model, plain_runs, reference, simulation_runs
 
+from benchmarks.peers import peer_simulators as peers
+from benchmarks.peers.peer_mujoco import own_runs, stock_runs
+from benchmarks.peers.peer_picture import draw
+from benchmarks.peers.peer_tasks import TASKS, TIMES, air_rates, air_start, scipy_runs
+from benchmarks.peers.peer_underwater import (
+    lagged_runs,
+    own_model,
+    plain_runs,
+    reference,
+    simulation_runs,
+)
 from fluid_sim_ros.errors import DivergedError
 from fluid_sim_ros.lab.problems.closed_forms import scene_of
 
@@ -16,11 +22,11 @@ def contestants(task):
     """Return runs of every simulator at a task, RotorPy and JSBSim where they are installed."""
     runs = own_runs(task, [0.02]) + stock_runs(task, [0.02])
     if peers.find_spec('jsbsim'):
-        from peer_jsbsim import jsbsim_runs
+        from benchmarks.peers.peer_jsbsim import jsbsim_runs
 
         runs += jsbsim_runs(task, [0.02])
     if peers.find_spec('rotorpy'):
-        from peer_rotorpy import rotorpy_runs
+        from benchmarks.peers.peer_rotorpy import rotorpy_runs
 
         runs += rotorpy_runs(task, [0.1])
     return runs

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from closed_loop import cruise
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.fixed_wing import FixedWingController, FixedWingGains
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.closed_loop import cruise
 
 PLANT, _ = plant_of('aerosonde', '')
 LIMITS, MAX_DEFLECTION = PLANT.thrust_limits[0], 0.44

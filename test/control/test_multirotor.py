@@ -4,12 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
-from closed_loop import Loop, fly
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.closed_loop import Loop, fly
 
 PLANT, _ = plant_of('quadrotor', '')
 HOME = (0.0, 0.0, 1.5)

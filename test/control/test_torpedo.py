@@ -4,12 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
-from closed_loop import Loop
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.torpedo import TorpedoController, TorpedoGains
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.closed_loop import Loop
 
 PLANT, VEHICLE = plant_of('remus100', '')
 MOST = 0.2374  # rad

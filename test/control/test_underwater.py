@@ -5,11 +5,11 @@ import dataclasses
 import mujoco
 import numpy as np
 import pytest
-from closed_loop import dive
 
 from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.closed_loop import dive
 
 PLANT, _ = plant_of('rov', '')
 TIME, X, Y, Z, YAW, TILT, VX, VY = range(8)

@@ -13,7 +13,7 @@ from fluid_sim_ros.demo.flight import fly
 from fluid_sim_ros.demo.flight_log import read_recording
 from fluid_sim_ros.demo.main import main
 from fluid_sim_ros.errors import FluidSimError
-from test.ros.harness import wait_until
+from test.support.ros_processes import wait_until
 
 pytestmark = pytest.mark.ros
 

@@ -8,7 +8,12 @@ from fractions import Fraction
 from functools import partial
 
 import pytest
-from ardupilot_stand_in import (
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings, open_bridge
+from fluid_sim_ros.loop.pacing import RealTime
+from fluid_sim_ros.simulation import Simulation
+from test.support.autopilots.ardupilot_stand_in import (
     VECTORED,
     VECTORED_6DOF,
     Copter,
@@ -17,12 +22,7 @@ from ardupilot_stand_in import (
     Submarine,
     padded,
 )
-from autopilot_peers import Flight, waited
-
-from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings, open_bridge
-from fluid_sim_ros.loop.pacing import RealTime
-from fluid_sim_ros.simulation import Simulation
+from test.support.autopilots.autopilot_peers import Flight, waited
 
 IDLE = padded([1000] * 4)
 

@@ -4,17 +4,17 @@ import signal
 import threading
 
 import pytest
-from ardupilot_stand_in import Copter, Link, padded
-from autopilot_peers import free_port
 from geometry_msgs.msg import TwistStamped
-from harness import Peer, node, stamp_ns, wait_until
 from nav_msgs.msg import Odometry
-from px4_stand_in import Px4, Quad
 from sensor_msgs.msg import Joy
 from std_srvs.srv import Trigger
 
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
+from test.support.autopilots.ardupilot_stand_in import Copter, Link, padded
+from test.support.autopilots.autopilot_peers import free_port
+from test.support.autopilots.px4_stand_in import Px4, Quad
+from test.support.ros_processes import Peer, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

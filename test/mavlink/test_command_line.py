@@ -5,11 +5,8 @@ import random
 import shlex
 import sys
 import threading
-from pathlib import Path
 
 import pytest
-from ardupilot_stand_in import Copter, Link, padded
-from autopilot_peers import free_port, waited
 
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.cli.flight import AutopilotRun
@@ -20,9 +17,12 @@ from fluid_sim_ros.mavlink.program import Program, command_line
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.schema.scene import Home
+from test.support.autopilots.ardupilot_stand_in import Copter, Link, padded
+from test.support.autopilots.autopilot_peers import free_port, waited
+from test.support.paths import ROOT
 
-PROGRAM = Path(__file__).with_name('px4_program.py')
-COMMAND = shlex.join([sys.executable, str(PROGRAM)])
+PROGRAM = 'test.support.autopilots.px4_program'
+COMMAND = shlex.join(['env', f'PYTHONPATH={ROOT}', sys.executable, '-m', PROGRAM])
 
 
 @pytest.fixture

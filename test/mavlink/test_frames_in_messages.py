@@ -2,12 +2,9 @@
 
 import math
 
-import hil_wire
 import mujoco
 import numpy as np
 import pytest
-from autopilot_peers import Flight
-from json_reader import JsonReader
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.mavlink.hil_messages import HilCodec
@@ -15,6 +12,9 @@ from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.json_packets import write_state
 from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.mavlink.sticks import Sticks
+from test.support.autopilots import hil_wire
+from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.json_reader import JsonReader
 
 #: Heading north, level: east, north, up of the nose and so on.
 NORTH = np.array([math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)])

@@ -5,14 +5,19 @@ from functools import cache
 
 import numpy as np
 import pytest
-from ardupilot_stand_in import QUAD_X, VECTORED, VECTORED_6DOF, quad_x_factors
-from px4_stand_in import HEAVY, IRIS
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.autopilots.ardupilot_stand_in import (
+    QUAD_X,
+    VECTORED,
+    VECTORED_6DOF,
+    quad_x_factors,
+)
+from test.support.autopilots.px4_stand_in import HEAVY, IRIS
 
 #: Force and torque in FRD axes of a wrench in FLU axes.
 FRD = np.array([1, -1, -1, 1, -1, -1])

@@ -6,15 +6,15 @@ import socket
 import sys
 import time
 
-import hil_wire
 import pytest
-from autopilot_peers import Flight, waited
-from px4_stand_in import Plane, Px4, Quad, Submarine
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.mavlink import px4 as px4_bridge
 from fluid_sim_ros.mavlink.hil_messages import dialect
 from fluid_sim_ros.resources import config_folder
+from test.support.autopilots import hil_wire
+from test.support.autopilots.autopilot_peers import Flight, waited
+from test.support.autopilots.px4_stand_in import Plane, Px4, Quad, Submarine
 
 IDLE = [0.0] * 4
 

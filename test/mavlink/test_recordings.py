@@ -3,14 +3,14 @@
 import json
 import struct
 
-import hil_wire
 import pytest
-from json_reader import JsonReader
-from recordings import FROM_AUTOPILOT, TO_AUTOPILOT, portions
 
 from fluid_sim_ros.mavlink.hil_messages import HilCodec, SensorReadings, dialect
 from fluid_sim_ros.mavlink.json_packets import JsonState, read_servo_packet, write_state
 from fluid_sim_ros.mavlink.ned import euler
+from test.support.autopilots import hil_wire
+from test.support.autopilots.json_reader import JsonReader
+from test.support.autopilots.recordings import FROM_AUTOPILOT, TO_AUTOPILOT, portions
 
 PX4 = 'px4_iris_hil.bin.gz'
 ARDUPILOT = ('arducopter_json.bin.gz', 'ardusub_json.bin.gz')

@@ -3,12 +3,12 @@
 import math
 
 import pytest
-from autopilot_peers import Flight
-from px4_stand_in import Px4
 
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.mavlink import sticks as sticks_module
 from fluid_sim_ros.mavlink.sticks import Sticks
+from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.px4_stand_in import Px4
 
 IDLE = [0.0] * 4
 

@@ -1,13 +1,13 @@
 """The Aerosonde against SciPy on the book's equations: trim, modes, a manoeuvre, its motor."""
 
-import aircraft_equations as equations
 import pytest
-from aircraft import manoeuvre, modes, trims
-from aircraft_runs import Aircraft
 
+from benchmarks.vehicles.aircraft import manoeuvre, modes, trims
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.electric_motor import AEROSONDE_MOTOR, ElectricMotor
+from test.support import aircraft_equations as equations
+from test.support.aircraft_runs import Aircraft
 
 
 @pytest.fixture(scope='module')

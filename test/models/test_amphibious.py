@@ -1,15 +1,15 @@
 """The amphibious quadrotor: in air, in water and through the surface, against SciPy."""
 
-import amphibious as bench
 import mujoco
 import numpy as np
 import pytest
-from closed_loop import Loop
 
+from benchmarks.vehicles import amphibious as bench
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.closed_loop import Loop
 
 SHARE = 0.005  # of the value, as for the other vehicles
 

@@ -3,10 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
-from fish import STROUHAL, swim
-from plugin_common import kinetic_energy
 
+from benchmarks.vehicles.fish import STROUHAL, swim
 from fluid_sim_ros import Simulation
+from test.support.plugin_models import kinetic_energy
 
 #: Drag along the body [N s^2/m^2]: the links' first quadratic coefficients, models/fish.xml.
 ALONG = 0.145 + 0.0471 + 0.0242

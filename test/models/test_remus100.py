@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-import remus_equations as equations
-import remus_runs as remus
-import vehicle_runs as runs
-from remus_equations import PUBLISHED
+
+from test.support import remus_equations as equations
+from test.support import remus_runs as remus
+from test.support import vehicle_runs as runs
+from test.support.remus_equations import PUBLISHED
 
 SHARE = 0.005  # of the value, as promised
 #: What the coefficient set alone has to give: his totals less the fins, less the added mass.

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-import vehicle_runs as runs
-from vehicle_equations import EQUATIONS, G
+
+from test.support import vehicle_runs as runs
+from test.support.vehicle_equations import EQUATIONS, G
 
 ROVS = ('bluerov2_heavy', 'bluerov2')
 COPTERS = ('x500', 'crazyflie')

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from thruster_common import X500, read, rotor_world
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.cdr import read_joint_state
+from test.support.thruster_models import X500, read, rotor_world
 
 HOVER = 500.0  # rad/s
 ROTOR = {**X500, 'rotor_drag': 1e-4}

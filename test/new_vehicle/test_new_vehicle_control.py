@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from closed_loop import Loop
 
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.control.underwater import UnderwaterController
 from fluid_sim_ros.new_vehicle.files import design_vehicle, write_vehicle
 from fluid_sim_ros.simulation.plant import plant_of
+from test.support.closed_loop import Loop
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from layers import LEAVES, ORDER, PACKAGE, circles, dynamic_imports, violations
+
+from test.packaging.layers import LEAVES, ORDER, PACKAGE, circles, dynamic_imports, violations
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Modules that stand at the package's root; everything else has a folder.

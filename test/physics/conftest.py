@@ -1,11 +1,5 @@
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-# The shared helpers lie beside the tests, which are no package.
-sys.path.insert(0, str(Path(__file__).parent))
 
 
 @pytest.fixture

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import positive_matrix, rotation, seeds, vectors
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.added_mass import (
@@ -18,6 +17,7 @@ from fluid_sim_ros.physics.added_mass import (
     shift_reference_point,
 )
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
+from test.support.strategies import positive_matrix, rotation, seeds, vectors
 
 
 def test_order_of_6_21_and_36_numbers():

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from scipy.integrate import solve_ivp
-from strategies import axes, floats, positive_matrix, rotation, seeds, vectors
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.buoyancy import (
@@ -22,6 +21,7 @@ from fluid_sim_ros.physics.volume import (
     mesh_volume,
     sphere_volume,
 )
+from test.support.strategies import axes, floats, positive_matrix, rotation, seeds, vectors
 
 G = np.array([0.0, 0.0, -9.81])
 

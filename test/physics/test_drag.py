@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import CYCLE, FLIPS, axes, floats, vectors
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.drag import (
@@ -12,6 +11,7 @@ from fluid_sim_ros.physics.drag import (
     swept_inertia,
     viscous_resistance,
 )
+from test.support.strategies import CYCLE, FLIPS, axes, floats, vectors
 
 COEF = {'density': 1000.0, 'c_blunt': 0.5, 'c_slender': 0.25}
 SPIN = {'density': 1000.0, 'c_angular': 1.5, 'c_slender': 0.25}

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import CYCLE, axes, vectors
 
 from fluid_sim_ros.physics.added_mass import (
     added_mass_coriolis_seed_text,
@@ -9,6 +8,7 @@ from fluid_sim_ros.physics.added_mass import (
 )
 from fluid_sim_ros.physics.ellipsoid import FluidCoef, ellipsoid_wrench
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
+from test.support.strategies import CYCLE, axes, vectors
 
 WATER = {'density': 1000.0, 'viscosity': 9e-4}
 

@@ -1,19 +1,12 @@
 """Each numpy term on its own against stock MuJoCo, and the places where the seed's text is off."""
 
-import importlib.util
-from pathlib import Path
-
 import mujoco
 import numpy as np
 import pytest
 
+from benchmarks.plugins import fluid_terms
 from fluid_sim_ros.physics import added_mass, drag, kappa, lift
 from fluid_sim_ros.physics.ellipsoid import FluidCoef, ellipsoid_wrench
-
-_PATH = Path(__file__).parents[2] / 'benchmarks' / 'fluid_terms.py'
-_SPEC = importlib.util.spec_from_file_location('fluid_terms', _PATH)
-fluid_terms = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(fluid_terms)
 
 
 @pytest.fixture(scope='module')

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis.extra.numpy import arrays
-from strategies import floats, positive_matrix, seeds
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.added_mass import added_mass_coriolis
@@ -15,6 +14,7 @@ from fluid_sim_ros.physics.fossen import (
     secant_damping,
     without_convection,
 )
+from test.support.strategies import floats, positive_matrix, seeds
 
 NU = arrays(float, 6, elements=floats(-5, 5))
 

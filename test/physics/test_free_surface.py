@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import axes, floats, rotation, seeds
 
 from fluid_sim_ros.physics.buoyancy import buoyancy_wrench
 from fluid_sim_ros.physics.free_surface import (
@@ -11,6 +10,7 @@ from fluid_sim_ros.physics.free_surface import (
     wetted_volume_rate,
 )
 from fluid_sim_ros.physics.volume import box_mesh, box_volume, ellipsoid_volume
+from test.support.strategies import axes, floats, rotation, seeds
 
 
 def up_of(seed):

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from scipy.interpolate import RegularGridInterpolator
-from strategies import floats, seeds
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.environment.grid import checked_grid, grid_flow
+from test.support.strategies import floats, seeds
 
 AXES = ([0.0, 1.0, 4.0], [-2.0, 0.0, 0.5, 3.0], [1.0, 2.0], [-5.0, -1.0, 0.0])
 SHAPE = (3, 4, 2, 3)

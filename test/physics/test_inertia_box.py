@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import CYCLE, axes, floats, vectors
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.inertia_box import (
@@ -11,6 +10,7 @@ from fluid_sim_ros.physics.inertia_box import (
     inertia_box_wrench,
     sphere_resistance,
 )
+from test.support.strategies import CYCLE, axes, floats, vectors
 
 
 @given(axes(), floats(0.1, 100))

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from scipy.integrate import quad
-from strategies import CYCLE, axes
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.kappa import (
@@ -14,6 +13,7 @@ from fluid_sim_ros.physics.kappa import (
     kappa,
     kappa_divided_difference,
 )
+from test.support.strategies import CYCLE, axes
 
 TABLE = np.genfromtxt(
     Path(__file__).parent / 'data' / 'added_mass_ellipsoid.csv', delimiter=',', skip_header=4

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from strategies import positive_matrix, rotation
 
 from fluid_sim_ros.physics.added_mass import rotate_matrix6, shift_reference_point
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
@@ -12,6 +11,7 @@ from fluid_sim_ros.physics.kirchhoff import (
     rigid_body_matrix,
     rotation_wb,
 )
+from test.support.strategies import positive_matrix, rotation
 
 START = np.array([0.3, -0.2, 0.1, 0.8, 0.2, -0.4, 0.4, 1.0, 0.5, 0.3, 1.0, 2.0, 1.5])
 START[3:7] /= np.linalg.norm(START[3:7])

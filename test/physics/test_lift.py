@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import CYCLE, FLIPS, axes, floats, vectors
 
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
 from fluid_sim_ros.physics.lift import kutta_force, kutta_force_decomposed, magnus_force
+from test.support.strategies import CYCLE, FLIPS, axes, floats, vectors
 
 ONE = {'density': 1.0, 'c_kutta': 1.0}
 

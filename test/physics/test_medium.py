@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import floats, vectors
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.environment.medium import (
@@ -14,6 +13,7 @@ from fluid_sim_ros.physics.environment.medium import (
     slew_limited,
     table_profile,
 )
+from test.support.strategies import floats, vectors
 
 PROFILES = [
     lambda z: power_law_profile(z, 10.0, 1 / 7),

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import CYCLE, axes, vectors
 
 from fluid_sim_ros.physics.projection import (
     max_projected_area,
@@ -10,6 +9,7 @@ from fluid_sim_ros.physics.projection import (
     projected_area_seed,
     section_normal,
 )
+from test.support.strategies import CYCLE, axes, vectors
 
 
 @given(axes(), vectors())

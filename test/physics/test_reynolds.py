@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from scipy.integrate import solve_ivp
-from strategies import floats
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.drag import blunt_slender_drag, viscous_resistance
@@ -13,6 +12,7 @@ from fluid_sim_ros.physics.reynolds import (
     terminal_speed_quadratic,
     terminal_speed_stokes,
 )
+from test.support.strategies import floats
 
 
 def test_reynolds_number():

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from scipy.optimize import brentq
-from strategies import axes, floats, vectors
 
 from fluid_sim_ros.physics.drag import viscous_resistance
 from fluid_sim_ros.physics.reynolds import (
@@ -14,6 +13,7 @@ from fluid_sim_ros.physics.reynolds import (
     reynolds_number,
     sphere_cd_brown_lawler,
 )
+from test.support.strategies import axes, floats, vectors
 
 STANDARD = np.genfromtxt(
     Path(__file__).parent / 'data' / 'sphere_cd_standard.csv', delimiter=',', skip_header=3

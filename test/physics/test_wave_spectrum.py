@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from scipy.integrate import quad
-from strategies import floats, seeds
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.environment.wave_spectrum import (
@@ -16,6 +15,7 @@ from fluid_sim_ros.physics.environment.wave_spectrum import (
     uniforms,
 )
 from fluid_sim_ros.physics.environment.waves import wave_flow, wave_surface
+from test.support.strategies import floats, seeds
 
 
 def moment(order, low=0.0, high=np.inf, **sea):

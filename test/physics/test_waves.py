@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from strategies import floats
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
@@ -15,6 +14,7 @@ from fluid_sim_ros.physics.environment.waves import (
     wave_flow,
     wave_surface,
 )
+from test.support.strategies import floats
 
 G = 9.81
 DEEP = regular_waves(1.2, 5.0, [3.0, 4.0])

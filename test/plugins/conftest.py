@@ -1,11 +1,4 @@
-"""The plugin tests share the benchmarks' model builder (benchmarks/plugin_common.py)."""
-
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[2] / 'benchmarks'))
 
 
 @pytest.fixture(autouse=True)

@@ -3,7 +3,9 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
+
+from fluid_sim_ros.physics.added_mass import added_mass_coriolis
+from test.support.plugin_models import (
     body_plugin,
     explicit_force,
     free_body,
@@ -12,8 +14,6 @@ from plugin_common import (
     text,
     world,
 )
-
-from fluid_sim_ros.physics.added_mass import added_mass_coriolis
 
 FLOW = np.array([0.3, -0.2, 0.4])
 NAMES = ('hull', 'arm', 'hand')

@@ -3,7 +3,11 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
+
+from fluid_sim_ros.physics.buoyancy import layered_buoyancy_wrench
+from fluid_sim_ros.physics.free_surface import box_cut, ellipsoid_cut, polyhedron_cut
+from fluid_sim_ros.physics.volume import capsule_volume, cylinder_volume, mesh_volume
+from test.support.plugin_models import (
     body_plugin,
     ellipsoid,
     explicit_force,
@@ -13,10 +17,6 @@ from plugin_common import (
     text,
     world,
 )
-
-from fluid_sim_ros.physics.buoyancy import layered_buoyancy_wrench
-from fluid_sim_ros.physics.free_surface import box_cut, ellipsoid_cut, polyhedron_cut
-from fluid_sim_ros.physics.volume import capsule_volume, cylinder_volume, mesh_volume
 
 WATER, AIR, G = 1000.0, 1.2, np.array([0.0, 0.0, -9.81])
 LAKE = {'density': WATER, 'density_above': AIR, 'surface': 0.7}

@@ -1,7 +1,8 @@
-"""Closed forms at the bounds of benchmarks/plugin_closed_forms.py."""
+"""Closed forms at the bounds of benchmarks/plugins/plugin_closed_forms.py."""
 
-import plugin_closed_forms as bench
 import pytest
+
+from benchmarks.plugins import plugin_closed_forms as bench
 
 
 @pytest.fixture(scope='module')

@@ -3,10 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import body_plugin, ellipsoid, free_body, load, world
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.plugins.native import native
+from test.support.plugin_models import body_plugin, ellipsoid, free_body, load, world
 
 SEA = {'density': 1000, 'surface': 0}
 SPHERE = free_body(ellipsoid([0.1] * 3, 1000) + body_plugin(added_mass='auto', volume='auto'))

@@ -3,7 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
+
+from fluid_sim_ros.physics.environment.grid import checked_grid, grid_flow
+from fluid_sim_ros.scene.grid_files import grid_numbers
+from test.support.plugin_models import (
     body_plugin,
     ellipsoid,
     explicit_force,
@@ -14,9 +17,6 @@ from plugin_common import (
     text,
     world,
 )
-
-from fluid_sim_ros.physics.environment.grid import checked_grid, grid_flow
-from fluid_sim_ros.scene.grid_files import grid_numbers
 
 AXES = ([0.0, 1.0, 4.0], [-2.0, 0.0, 0.5, 3.0], [1.0, 2.0], [-5.0, -1.0, 0.0])
 GRID = checked_grid(AXES, np.random.default_rng(2).normal(size=(3, 4, 2, 3, 3)))

@@ -1,10 +1,11 @@
-"""Added mass against Kirchhoff's equations (a small part of benchmarks/plugin_kirchhoff.py)."""
+"""Added mass against Kirchhoff's equations (a small part of plugin_kirchhoff.py)."""
 
 import mujoco
 import numpy as np
-import plugin_kirchhoff as bench
 import pytest
-from plugin_common import FIRST_ORDER, ellipsoid, free_body, load, world
+
+from benchmarks.plugins import plugin_kirchhoff as bench
+from test.support.plugin_models import FIRST_ORDER, ellipsoid, free_body, load, world
 
 STILL = np.zeros(3)
 CASES = [bench.ellipsoid_case(0), bench.ellipsoid_case(1), bench.full_case(0)]

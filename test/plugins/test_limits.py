@@ -5,9 +5,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plugin_common import body_plugin, ellipsoid, free_body, kinetic_energy, load, world
 
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
+from test.support.plugin_models import (
+    body_plugin,
+    ellipsoid,
+    free_body,
+    kinetic_energy,
+    load,
+    world,
+)
 
 AXES, WATER = np.array([0.3, 0.2, 0.1]), {'density': 1000, 'viscosity': 1e-3}
 MASS_A, INERTIA_A = ellipsoid_added_mass(AXES, 1000.0)

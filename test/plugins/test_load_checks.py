@@ -2,9 +2,9 @@
 
 import mujoco
 import pytest
-from plugin_common import body_plugin, ellipsoid, free_body, load, refusal, world
 
 from fluid_sim_ros.plugins.messages import load_error_line
+from test.support.plugin_models import body_plugin, ellipsoid, free_body, load, refusal, world
 
 HULL = ellipsoid([0.3, 0.2, 0.1], 500)
 SEA = {'density': 1000, 'viscosity': 1e-3}

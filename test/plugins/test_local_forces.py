@@ -3,14 +3,6 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
-    body_plugin,
-    ellipsoid,
-    explicit_force,
-    free_body,
-    load,
-    world,
-)
 
 from fluid_sim_ros.physics.drag import angular_drag, viscous_resistance
 from fluid_sim_ros.physics.ellipsoid import FluidCoef, ellipsoid_wrench
@@ -21,6 +13,14 @@ from fluid_sim_ros.physics.fossen import (
     secant_damping,
 )
 from fluid_sim_ros.physics.reynolds import reynolds_drag
+from test.support.plugin_models import (
+    body_plugin,
+    ellipsoid,
+    explicit_force,
+    free_body,
+    load,
+    world,
+)
 
 AXES = np.array([0.3, 0.2, 0.1])
 SEA = {'density': 1025, 'viscosity': 1e-3, 'current': [0.3, -0.1, 0.2]}

@@ -3,15 +3,6 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
-    body_plugin,
-    ellipsoid,
-    explicit_force,
-    free_body,
-    load,
-    set_medium,
-    world,
-)
 
 from fluid_sim_ros.physics.added_mass import accelerating_flow_wrench
 from fluid_sim_ros.physics.environment.medium import (
@@ -22,6 +13,15 @@ from fluid_sim_ros.physics.environment.medium import (
     table_profile,
 )
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
+from test.support.plugin_models import (
+    body_plugin,
+    ellipsoid,
+    explicit_force,
+    free_body,
+    load,
+    set_medium,
+    world,
+)
 
 AXES = [0.3, 0.2, 0.1]
 VOLUME = 4 / 3 * np.pi * 0.006

@@ -4,16 +4,16 @@ import ctypes
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
-from foil_common import AEROSONDE, foil_world
-from plugin_common import load
-from test_same_bits import sea_xml, start
-from thruster_common import T200, rotor_world
 
 from fluid_sim_ros.plugins.native import native
+from test.support.foil_models import AEROSONDE, foil_world
+from test.support.paths import ROOT
+from test.support.plugin_models import load
+from test.support.sea_models import sea_xml, start
+from test.support.thruster_models import T200, rotor_world
 
 COUNTER = r"""
 #include <dlfcn.h>
@@ -80,12 +80,10 @@ def counts(tmp_path_factory):
     source.write_text(COUNTER)
     command = ['g++', '-O1', '-shared', '-fPIC', str(source), '-o', str(library)]
     subprocess.run(command, check=True)
-    here = Path(__file__)
-    root = here.parents[2]
-    path = os.pathsep.join(map(str, (root, root / 'benchmarks', here.parent)))
+    program = 'from test.plugins.test_no_allocation import count_allocations as c; c()'
     done = subprocess.run(
-        [sys.executable, '-c', f'import {here.stem}; {here.stem}.count_allocations()'],
-        env=dict(os.environ, LD_PRELOAD=str(library), PYTHONPATH=path),
+        [sys.executable, '-c', program],
+        env=dict(os.environ, LD_PRELOAD=str(library), PYTHONPATH=str(ROOT)),
         capture_output=True, text=True, check=False, cwd=folder,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

@@ -3,7 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
+
+from fluid_sim_ros import Simulation
+from fluid_sim_ros.plugins import native as nat
+from test.support.plugin_models import (
     body_plugin,
     ellipsoid,
     explicit_force,
@@ -12,9 +15,6 @@ from plugin_common import (
     set_medium,
     world,
 )
-
-from fluid_sim_ros import Simulation
-from fluid_sim_ros.plugins import native as nat
 
 SEA = {
     'density': 1025, 'viscosity': 1e-3, 'density_above': 1.2, 'viscosity_above': 1.8e-5,

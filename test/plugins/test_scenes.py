@@ -7,10 +7,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import kinetic_energy
 
 from fluid_sim_ros import Simulation, load_plugins, plugin_library
 from fluid_sim_ros.plugins.native import native
+from test.support.plugin_models import kinetic_energy
 
 MODELS = Path(__file__).parents[2] / 'models'
 

@@ -1,7 +1,8 @@
 """Keys of the waves: what a model refuses to load with, each with one line."""
 
 import pytest
-from plugin_common import body_plugin, ellipsoid, free_body, refusal, world
+
+from test.support.plugin_models import body_plugin, ellipsoid, free_body, refusal, world
 
 HULL = free_body(ellipsoid([0.3, 0.2, 0.1], 500) + body_plugin(volume='auto'))
 SEA = {'density': 1000, 'surface': 0}

@@ -3,7 +3,13 @@
 import mujoco
 import numpy as np
 import pytest
-from plugin_common import (
+from scipy.integrate import solve_ivp
+
+from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
+from fluid_sim_ros.physics.environment.waves import Sea, regular_waves, wave_flow, wave_surface
+from fluid_sim_ros.physics.free_surface import box_cut
+from fluid_sim_ros.plugins.native import MEDIUM_VELOCITY, ROW_WIDTH, native
+from test.support.plugin_models import (
     body_plugin,
     ellipsoid,
     explicit_force,
@@ -12,12 +18,6 @@ from plugin_common import (
     load,
     world,
 )
-from scipy.integrate import solve_ivp
-
-from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
-from fluid_sim_ros.physics.environment.waves import Sea, regular_waves, wave_flow, wave_surface
-from fluid_sim_ros.physics.free_surface import box_cut
-from fluid_sim_ros.plugins.native import MEDIUM_VELOCITY, ROW_WIDTH, native
 
 G = 9.81
 LEVEL = 1.5  # of the surface, world z [m]

@@ -4,7 +4,6 @@ import mujoco
 import numpy as np
 import pytest
 from mujoco import rollout
-from plugin_common import body_plugin, ellipsoid, explicit_force, free_body, load, refusal, world
 from scipy.interpolate import CubicHermiteSpline
 
 from fluid_sim_ros.physics.environment.coloured_noise import (
@@ -15,6 +14,15 @@ from fluid_sim_ros.physics.environment.coloured_noise import (
 )
 from fluid_sim_ros.physics.environment.turbulence import turbulence_filters, turbulence_intensity
 from fluid_sim_ros.plugins.native import native
+from test.support.plugin_models import (
+    body_plugin,
+    ellipsoid,
+    explicit_force,
+    free_body,
+    load,
+    refusal,
+    world,
+)
 
 AIR = {'density': 1.2}
 #: A body whose damping reads the flow: force = -(v - u) for unit coefficients.

@@ -4,10 +4,9 @@ import json
 import re
 from pathlib import Path
 
-from flights import fly
-
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.reader import open_log
+from test.support.recorded_flights import fly
 
 LAYOUT = Path(__file__).resolve().parents[2] / 'config/foxglove/quadrotor.json'
 

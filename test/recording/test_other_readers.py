@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 import yaml
-from flights import fly
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
@@ -13,6 +12,7 @@ from rosbags.typesys import Stores, get_typestore
 from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.inspect import repair
 from fluid_sim_ros.recording.reader import open_log
+from test.support.recorded_flights import fly
 
 
 @pytest.fixture(scope='module')

@@ -9,13 +9,13 @@ import subprocess
 import numpy as np
 import pyarrow.parquet
 import pytest
-from flights import fly
 
 from fluid_sim_ros import cli
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.pictures.report import write_report
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks, read_tracks
 from fluid_sim_ros.recording.reader import open_log
+from test.support.recorded_flights import fly
 
 
 @pytest.fixture(scope='module')

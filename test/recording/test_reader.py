@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from flights import fly
 from mcap.reader import make_reader
 
 from fluid_sim_ros.cli.main import WRONG_INPUT, main
@@ -19,6 +18,7 @@ from fluid_sim_ros.recording.decode import columns, fields
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.inspect import info, repair
 from fluid_sim_ros.recording.reader import MAGIC, open_log
+from test.support.recorded_flights import fly
 
 
 @pytest.fixture(scope='module')

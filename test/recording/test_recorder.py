@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from flights import events_of, fly
 from mcap.reader import make_reader
 
 from fluid_sim_ros import Simulation
@@ -22,6 +21,7 @@ from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.recorder import Recorder
 from fluid_sim_ros.recording.rosbag2 import recorded_topic
 from fluid_sim_ros.recording.sink import RecordingSink
+from test.support.recorded_flights import events_of, fly
 
 TOPIC = RecordedTopic('/a', 'std_msgs/msg/String')
 

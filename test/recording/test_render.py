@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from flights import fly
 from PIL import Image
 
 from fluid_sim_ros.cli.main import WRONG_INPUT, main
 from fluid_sim_ros.recording.pictures.render import FilmOptions, render
 from fluid_sim_ros.recording.reader import open_log
+from test.support.recorded_flights import fly
 
 
 @pytest.fixture(scope='module')

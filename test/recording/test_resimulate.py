@@ -5,7 +5,6 @@ import struct
 
 import numpy as np
 import pytest
-from flights import fly
 from mcap.writer import CompressionType, Writer
 
 from fluid_sim_ros import Simulation, cli, scene_names
@@ -13,6 +12,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
 from fluid_sim_ros.recording.sink import RecordingSink
+from test.support.recorded_flights import fly
 
 
 def flown(number, folder):

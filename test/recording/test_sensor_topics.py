@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from flights import fly
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.messages.definitions import definition
@@ -13,6 +12,7 @@ from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.sensors import SensorSuite
+from test.support.recorded_flights import fly
 
 TOPICS = {
     'x500': ['gps/fix', 'gps/vel', 'imu/data', 'imu/mag', 'pressure', 'range'],

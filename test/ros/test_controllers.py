@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 
 from fluid_sim_ros.control.multirotor import MultirotorController
 from fluid_sim_ros.simulation.plant import plant_of
-from test.ros.harness import Peer, Process, error_lines, node, stamp_ns, wait_until
+from test.support.ros_processes import Peer, Process, error_lines, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

@@ -11,7 +11,7 @@ from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
-from test.ros.harness import Peer, node, stamp_ns, wait_until
+from test.support.ros_processes import Peer, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

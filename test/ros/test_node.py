@@ -17,7 +17,7 @@ from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
 from fluid_sim_ros import Scene, Simulation, scene_names
-from test.ros.harness import NODE, Peer, Process, error_lines, node, stamp_ns, wait_until
+from test.support.ros_processes import NODE, Peer, Process, error_lines, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

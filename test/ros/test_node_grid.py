@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from test.ros.harness import Peer, node, wait_until
+from test.support.ros_processes import Peer, node, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

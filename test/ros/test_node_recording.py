@@ -5,8 +5,6 @@ import signal
 from pathlib import Path
 
 import pytest
-from flights import events_of
-from harness import NODE, Peer, Process, node, stamp_ns, wait_until
 from mcap.reader import make_reader
 from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message, serialize_message
@@ -17,6 +15,8 @@ from visualization_msgs.msg import MarkerArray
 from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
+from test.support.recorded_flights import events_of
+from test.support.ros_processes import NODE, Peer, Process, node, stamp_ns, wait_until
 
 pytestmark = pytest.mark.ros
 

@@ -3,13 +3,13 @@
 import signal
 
 import pytest
-from flights import fly
-from harness import Peer, Process, stamp_ns, wait_until
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.recording.reader import open_log
+from test.support.recorded_flights import fly
+from test.support.ros_processes import Peer, Process, stamp_ns, wait_until
 
 pytestmark = pytest.mark.ros
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from geometry_msgs.msg import TwistWithCovarianceStamped
-from harness import Peer, node, stamp_ns, wait_until
 from sensor_msgs.msg import FluidPressure, Imu, MagneticField, NavSatFix, Range
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.sensors import SensorSuite
+from test.support.ros_processes import Peer, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

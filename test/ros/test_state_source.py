@@ -9,7 +9,7 @@ from nav_msgs.msg import Odometry
 from rclpy.context import Context
 
 from fluid_sim_ros.ros.state_source import StateSource
-from test.ros.harness import Peer, wait_until
+from test.support.ros_processes import Peer, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

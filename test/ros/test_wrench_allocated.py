@@ -5,7 +5,7 @@ import pytest
 from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import JointState
 
-from test.ros.harness import Peer, node, wait_until
+from test.support.ros_processes import Peer, node, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 

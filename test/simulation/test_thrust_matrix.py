@@ -3,8 +3,6 @@
 import mujoco
 import numpy as np
 import pytest
-from closed_loop import Loop
-from thruster_common import AEROSONDE, X500, rotor_world
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control import rotation as rot
@@ -14,6 +12,8 @@ from fluid_sim_ros.errors import CommandError, ConfigError
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.simulation.plant import plant_of
 from fluid_sim_ros.simulation.thrust_matrix import WrenchAllocation, thrust_matrix
+from test.support.closed_loop import Loop
+from test.support.thruster_models import AEROSONDE, X500, rotor_world
 
 DRIVEN = ('rov', 'quadrotor', 'bluerov2_heavy', 'bluerov2', 'x500', 'crazyflie', 'aerosonde')
 

@@ -3,12 +3,12 @@
 import mujoco
 import numpy as np
 import pytest
-from foil_common import AEROSONDE, AIR, foil_world, generalized, in_flow
 from hypothesis import given
 from hypothesis import strategies as st
-from plugin_common import load
 
 from fluid_sim_ros.physics.aircraft import AircraftParams, aircraft_wrench
+from test.support.foil_models import AEROSONDE, AIR, foil_world, generalized, in_flow
+from test.support.plugin_models import load
 
 NAMES = {
     'lift': ('0', 'alpha', 'q', 'elevator'),

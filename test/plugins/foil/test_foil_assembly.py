@@ -2,8 +2,9 @@
 
 import mujoco
 import numpy as np
-from foil_common import foil_world
-from plugin_common import body_plugin, load
+
+from test.support.foil_models import foil_world
+from test.support.plugin_models import body_plugin, load
 
 BODY = {'added_mass': [1, 2, 3, 0.1, 0.2, 0.3], 'quadratic_damping': [5, 6, 7, 1, 1, 1]}
 

@@ -6,13 +6,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from foil_common import AEROSONDE, foil_world, generalized
 from mujoco.batch import Batch
-from plugin_common import config, load, refusal
 
 from fluid_sim_ros.physics.environment.waves import regular_waves, wave_flow
 from fluid_sim_ros.physics.foil import WingParams, wing_wrench
 from fluid_sim_ros.plugins.native import native
+from test.support.foil_models import AEROSONDE, foil_world, generalized
+from test.support.plugin_models import config, load, refusal
 
 WING = {'span': 1.0, 'chord': 0.2}
 

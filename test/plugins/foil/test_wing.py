@@ -3,14 +3,22 @@
 import mujoco
 import numpy as np
 import pytest
-from foil_common import AIR, DICKINSON, foil_world, generalized, in_flow, lift_drag, wing_params
 from hypothesis import given
 from hypothesis import strategies as st
-from plugin_common import explicit_force, load
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics import foil
 from fluid_sim_ros.plugins import native as nat
+from test.support.foil_models import (
+    AIR,
+    DICKINSON,
+    foil_world,
+    generalized,
+    in_flow,
+    lift_drag,
+    wing_params,
+)
+from test.support.plugin_models import explicit_force, load
 
 WING = {
     'span': 1.2, 'chord': 0.2, 'lift_0': 0.25, 'drag_0': 0.01, 'pitch_0': -0.05,

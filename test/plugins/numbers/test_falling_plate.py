@@ -1,9 +1,9 @@
 """Where the plate begins to tumble: plugin, theory, theory with the plugin's drag, stock."""
 
 import numpy as np
-import plugin_falling_plate as bench
 import pytest
 
+from benchmarks.plugins import plugin_falling_plate as bench
 from fluid_sim_ros.physics.falling_plate import PlateParams, falling_plate_rhs
 
 

@@ -2,11 +2,11 @@
 
 import mujoco
 import numpy as np
-import plugin_closed_forms as bench
 import pytest
-from plugin_common import body_plugin, ellipsoid, free_body, load, text, world
 
+from benchmarks.plugins import plugin_closed_forms as bench
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
+from test.support.plugin_models import body_plugin, ellipsoid, free_body, load, text, world
 
 LAKE = {'density': bench.WATER, 'surface': 0}
 

@@ -3,9 +3,10 @@
 import itertools
 
 import numpy as np
-import plugin_stability as bench
 import pytest
-from plugin_common import FIRST_ORDER
+
+from benchmarks.plugins import plugin_stability as bench
+from test.support.plugin_models import FIRST_ORDER
 
 
 @pytest.mark.parametrize('ratio', [0.0, 0.5, 2.0, 10.0, 100.0])

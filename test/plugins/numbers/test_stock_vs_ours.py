@@ -1,7 +1,8 @@
 """The README's accuracy table: ours is near the reference, stock is not."""
 
-import plugin_stock_vs_ours as bench
 import pytest
+
+from benchmarks.plugins import plugin_stock_vs_ours as bench
 
 #: Case (its first words) -> largest error of ours, least error of stock.
 BOUNDS = {

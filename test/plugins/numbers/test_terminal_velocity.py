@@ -1,8 +1,9 @@
 """Spheres settle to the speed of our formula, near that of the standard drag curve."""
 
 import numpy as np
-import plugin_terminal_velocity as bench
 import pytest
+
+from benchmarks.plugins import plugin_terminal_velocity as bench
 
 
 @pytest.fixture(scope='module')

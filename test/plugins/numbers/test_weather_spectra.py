@@ -1,7 +1,8 @@
 """Turbulence of the plugin against the spectra and variances of theory, over many seeds."""
 
 import pytest
-from weather_spectra import MINUTES, SEEDS, measure
+
+from benchmarks.weather.weather_spectra import MINUTES, SEEDS, measure
 
 
 @pytest.mark.parametrize('kind', ['dryden', 'von_karman'])

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from plugin_common import load
-from thruster_common import AEROSONDE, T200, X500, read, rotor_world, settle
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics import propulsion
 from fluid_sim_ros.physics.t200 import SUPPLIES, t200_speed_constants, t200_table
+from test.support.plugin_models import load
+from test.support.thruster_models import AEROSONDE, T200, X500, read, rotor_world, settle
 
 POLYNOMIAL = {
     'curve': 'polynomial', 'polynomial_forward': [1e-3, 2e-6, 3e-8],

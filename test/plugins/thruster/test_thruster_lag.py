@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mujoco import rollout
 from mujoco.batch import Batch
-from plugin_common import load
 from scipy.integrate import solve_ivp
-from thruster_common import AEROSONDE, X500, read, rotor_world
 
 from fluid_sim_ros.physics.propulsion import lagged_speed, propeller_load
+from test.support.plugin_models import load
+from test.support.thruster_models import AEROSONDE, X500, read, rotor_world
 
 INTEGRATORS = ('Euler', 'RK4', 'implicit', 'implicitfast', 'discrete')
 UP, DOWN = 0.0125, 0.025

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-from plugin_common import load, refusal
-from thruster_common import AEROSONDE, T200, X500, rotor_world
 
 from fluid_sim_ros.plugins.native import native
+from test.support.plugin_models import load, refusal
+from test.support.thruster_models import AEROSONDE, T200, X500, rotor_world
 
 ROTOR = {**X500, 'time_constant': 0}
 SEA = {'surface': 0.0, 'density': 1000, 'density_above': 1.2}

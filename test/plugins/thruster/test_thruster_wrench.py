@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from plugin_common import explicit_force, load
-from thruster_common import AEROSONDE, X500, read, rotor_world, settle
 
 from fluid_sim_ros.physics import propulsion
 from fluid_sim_ros.plugins import native as nat
+from test.support.plugin_models import explicit_force, load
+from test.support.thruster_models import AEROSONDE, X500, read, rotor_world, settle
 
 ROTOR = {**X500, 'time_constant': 0}
 TILT = np.deg2rad(30)

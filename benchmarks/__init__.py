@@ -1,0 +1,5 @@
+"""
+Benchmarks, by subject: one module a question, run as ``python -m benchmarks.SUBJECT.NAME``.
+
+From the top folder, which is where ``benchmarks`` and ``test.support`` are found.
+"""

@@ -1,0 +1,190 @@
+"""
+What an autopilot costs: speed in lockstep with a peer over real sockets, and the bridge's share.
+
+The peer is a process that answers each state at once with the thrust of hover, so that what is
+measured is the bridge and the sockets, not a controller. The overhead of an exchange is the
+processor time that the loop spends in the bridge, the simulated sensors and the system's sockets
+included, without that of waiting for the peer, which it does awake for a while. An exchange of
+PX4 covers two steps of the quadrotor. Ratios are of one run. Targets: PX4 at 250 Hz at least 20
+times real time, median overhead of a step 50 us or less.
+"""
+
+import math
+import multiprocessing
+import socket
+import statistics
+import struct
+import time
+from typing import Any
+
+from benchmarks.common import arguments, wall_seconds, write
+from fluid_sim_ros import Simulation
+from fluid_sim_ros.loop.autopilot_port import (
+    AutopilotOptions,
+    AutopilotPacing,
+    Bridge,
+    Surroundings,
+    open_bridge,
+)
+from fluid_sim_ros.loop.pacing import Pacing
+from fluid_sim_ros.loop.runner import NoSource, Runner
+from fluid_sim_ros.mavlink.hil_messages import dialect
+from fluid_sim_ros.mavlink.sockets import Watch
+from fluid_sim_ros.mavlink.wire import Frame
+from fluid_sim_ros.step_clock import NEVER
+
+SCENE = 'x500_ground'
+#: Share of full speed at which the x500 hovers: sqrt(2.06432 kg x 9.81 m/s^2 / 4 / 8.54858 N).
+HOVER = 0.77
+ARDUPILOT_RATE = 400  # [Hz]
+TARGETS = {'real_time_factor': 20.0, 'overhead_per_step_us': 50.0}
+#: Exchanges before the measurement: the first answers, and caches.
+_WARM_UP = 200
+#: Exchanges in one round; bridged and bare rounds take turns, and their medians count.
+_ROUND = 250
+
+
+def px4_peer(port: int) -> None:
+    """Answer every HIL_SENSOR of a connection."""
+    answer = Frame(dialect.MAVLink_hil_actuator_controls_message)
+    controls = [HOVER] * 4 + [0.0] * 12
+    client = socket.create_connection(('127.0.0.1', port))
+    client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    head = struct.Struct('<10xQ')
+    rest = b''
+    while data := client.recv(65536):
+        rest += data
+        at = 0
+        while at + 12 <= len(rest) and at + 12 + rest[at + 1] <= len(rest):
+            if rest[at + 7] == 107:
+                (now_us,) = head.unpack_from(rest, at)
+                client.sendall(answer.pack(0, 1, 1, now_us, 1, *controls, 129))
+            at += 12 + rest[at + 1]
+        rest = rest[at:]
+
+
+def ardupilot_peer(port: int) -> None:
+    """Send a servo packet for every state."""
+    peer = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    peer.connect(('127.0.0.1', port))
+    pulse = round(1000 + 1000 * HOVER)
+    count = 0
+    while True:
+        packet = struct.pack('<HHI16H', 18458, ARDUPILOT_RATE, count, *[pulse] * 4, *[0] * 12)
+        peer.send(packet)
+        peer.recv(65536)
+        count += 1
+
+
+class Timed(AutopilotPacing):
+    """Keeps the processor time that the loop spent in each exchange [s]."""
+
+    def __init__(self, bridge: Bridge) -> None:
+        super().__init__(bridge, Pacing())
+        self.overheads: list[float] = []
+        self._spent = 0.0
+        self.waited = 0.0
+
+    def meet(self, simulation: Simulation, source: Any) -> bool:
+        """Exchange under the clock."""
+        begin = time.thread_time()
+        met = super().meet(simulation, source)
+        self._spent += time.thread_time() - begin
+        if met:
+            self.overheads.append(self._spent - self.waited)
+            self._spent = self.waited = 0.0
+        return met
+
+
+_readable = Watch.readable
+
+
+def clock_waiting(pacing: Timed) -> None:
+    """Have the sockets' waiting counted apart, by its processor time [s]."""
+
+    def timed(watch: Watch, timeout: float) -> bool:
+        begin = time.thread_time()
+        found = _readable(watch, timeout)
+        pacing.waited += time.thread_time() - begin
+        return found
+
+    Watch.readable = timed  # type: ignore[method-assign]
+
+
+def measure(protocol: str, exchanges: int) -> dict[str, float]:
+    """Fly with a peer; return speed, its ratio to bare stepping, and the overhead."""
+    simulation = Simulation(SCENE)
+    bridge = open_bridge(simulation, AutopilotOptions(protocol, port=_free_port(protocol)),
+                         Surroundings())  # fmt: skip
+    pacing = Timed(bridge)
+    clock_waiting(pacing)
+    runner = Runner(simulation, NoSource(), [], pacing)
+    rate = 250 if protocol == 'px4' else ARDUPILOT_RATE
+
+    def fly(count: int) -> None:
+        target, runner.stopped = bridge.counters.answered + count, False
+        runner.housekeeping = lambda: bridge.counters.answered >= target and runner.stop()
+        runner.run(NEVER)
+
+    per_exchange = 2 if protocol == 'px4' else math.ceil(1 / ARDUPILOT_RATE / simulation.timestep)
+    bare, bridged, alone = Simulation(SCENE), [], []
+
+    def step_alone() -> None:
+        for _ in range(_ROUND):
+            bare.step(per_exchange)
+
+    peer = {'px4': px4_peer, 'ardupilot': ardupilot_peer}[protocol]
+    process = multiprocessing.get_context('spawn').Process(
+        target=peer, args=(bridge.port,), daemon=True
+    )
+    process.start()
+    try:
+        fly(_WARM_UP)
+        pacing.overheads.clear()
+        bare.load_state(simulation.save_state())
+        for _ in range(exchanges // _ROUND):
+            bridged.append(wall_seconds(lambda: fly(_ROUND)))
+            alone.append(wall_seconds(step_alone))
+    finally:
+        process.terminate()
+        bridge.close()
+    overheads = sorted(1e6 * spent for spent in pacing.overheads)
+    wall, bare_wall = statistics.median(bridged), statistics.median(alone)
+    return {
+        'exchange_rate_hz': rate,
+        'exchanges': exchanges,
+        'steps': simulation.step_count,
+        'missed': bridge.counters.missed,
+        'real_time_factor': _ROUND / rate / wall,
+        'bare_real_time_factor': _ROUND / rate / bare_wall,
+        'share_of_bare_speed': bare_wall / wall,
+        'exchange_us': 1e6 * wall / _ROUND,
+        'overhead_median_us': statistics.median(overheads),
+        'overhead_p99_us': overheads[int(0.99 * len(overheads))],
+        'overhead_per_step_median_us': statistics.median(overheads) / per_exchange,
+    }
+
+
+def _free_port(protocol: str) -> int:
+    kind = socket.SOCK_STREAM if protocol == 'px4' else socket.SOCK_DGRAM
+    with socket.socket(socket.AF_INET, kind) as probe:
+        probe.bind(('127.0.0.1', 0))
+        return int(probe.getsockname()[1])
+
+
+def main() -> None:
+    """Measure both protocols and write the result."""
+    options = arguments(__doc__, 'autopilot_bridge')
+    exchanges = 2000 if options.quick else 20000
+    rows = {protocol: measure(protocol, exchanges) for protocol in ('px4', 'ardupilot')}
+    for protocol, row in rows.items():
+        print(
+            f'{protocol}: {row["real_time_factor"]:.1f} times real time '
+            f'({row["share_of_bare_speed"]:.2f} of bare stepping), overhead of an exchange '
+            f'{row["overhead_median_us"]:.0f} us (99 %: {row["overhead_p99_us"]:.0f} us)'
+        )
+    write(options.json, {'scene': SCENE, 'targets': TARGETS, **rows})
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,1 @@
+"""What tests and benchmarks share: models, equations of motion, flights, processes."""

@@ -1,0 +1,7 @@
+"""Where the folders of the repository are."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = ROOT / 'models'
+DOC = ROOT / 'doc'
