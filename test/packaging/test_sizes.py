@@ -1,0 +1,44 @@
+from test.support.paths import ROOT
+
+PACKAGE = ROOT / 'fluid_sim_ros'
+LONGEST = 300
+#: Modules that a folder of the package may hold; these hold many small ones of one kind.
+MODULES, MORE_MODULES = 18, {'physics': 22, 'lab': 22}
+SUFFIXES = ('.py', '.cc', '.h')
+#: What is still to be split.
+LEFT = {
+    'benchmarks/plugins/plugin_closed_forms.py', 'benchmarks/plugins/plugin_stock_vs_ours.py',
+    'benchmarks/weather/waves.py', 'fluid_sim_ros/recording/recorder.py',
+    'fluid_sim_ros/scene/scene.py', 'fluid_sim_ros/simulation/simulation.py',
+    'test/mavlink/test_ardupilot.py', 'test/mavlink/test_px4.py',
+    'test/plugins/test_waves_plugin.py', 'test/plugins/test_weather.py',
+    'test/ros/test_controllers.py', 'test/ros/test_node.py', 'test/simulation/test_simulation.py',
+    'test/support/autopilots/px4_stand_in.py', 'test/sweep/test_sweep.py',
+}  # fmt: skip
+
+
+def sources(folder):
+    return [path for path in sorted(folder.rglob('*')) if path.suffix in SUFFIXES]
+
+
+def lines_of(path):
+    return path.read_text(encoding='utf-8').count('\n')
+
+
+def test_files_are_short_enough_to_read():
+    folders = [PACKAGE, ROOT / 'test', ROOT / 'benchmarks']
+    paths = [path for folder in folders for path in sources(folder)]
+    assert len(paths) > 500
+    lengths = {str(path.relative_to(ROOT)): lines_of(path) for path in paths}
+    too_long = {name: lines for name, lines in lengths.items() if lines > LONGEST}
+    assert {name: lines for name, lines in too_long.items() if name not in LEFT} == {}
+
+
+def test_folders_hold_few_enough_modules_to_look_through():
+    folders = [PACKAGE, *(path for path in PACKAGE.rglob('*') if path.is_dir())]
+    crowded = {}
+    for folder in folders:
+        count = sum(path.suffix in ('.py', '.cc') for path in folder.iterdir())
+        if count - (folder / '__init__.py').exists() > MORE_MODULES.get(folder.name, MODULES):
+            crowded[str(folder.relative_to(PACKAGE))] = count
+    assert set(crowded) <= {'plugins/src'}, crowded
