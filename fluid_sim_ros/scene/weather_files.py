@@ -2,35 +2,68 @@
 
 import csv
 import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.scene.grid_files import pack, read_grid
-from fluid_sim_ros.schema.weather import GridFile, Series
+from fluid_sim_ros.schema.flow_data import GridFile, Series
+from fluid_sim_ros.schema.flow_model import FlowModel
+
+Model = TypeVar('Model', bound=FlowModel)
 
 COLUMNS = ('t', 'x', 'y', 'z')
 
 
-def with_files(models: list[Any], folder: Path) -> tuple[Any, ...]:
-    """Return the models with the content of their files (paths relative to ``folder``)."""
+def with_files(models: Sequence[Model], folder: Path) -> tuple[Model, ...]:
+    """
+    Return models with the content of their files.
+
+    Parameters
+    ----------
+    models
+        As a scene's file states them.
+    folder
+        What their paths are relative to.
+
+    Returns
+    -------
+    tuple
+        The same models; those without a file as they are.
+
+    Raises
+    ------
+    ConfigError
+        For a file that cannot be read; see ``read_csv`` and ``read_grid``.
+
+    """
     return tuple(_with_file(model, folder) for model in models)
 
 
-def _with_file(model: Any, folder: Path) -> Any:
+def _with_file(model: Model, folder: Path) -> Model:
+    content: dict[str, Any] = {}
     if isinstance(model, Series) and model.times is None:
         rows = read_csv(folder / str(model.file))
-        return model.model_copy(
-            update={'times': [row[0] for row in rows], 'velocities': [row[1:] for row in rows]}
-        )
-    if isinstance(model, GridFile) and model.data is None:
-        return model.model_copy(update={'data': pack(read_grid(folder / model.file))})
-    return model
+        content = {'times': [row[0] for row in rows], 'velocities': [row[1:] for row in rows]}
+    elif isinstance(model, GridFile) and model.data is None:
+        content = {'data': pack(read_grid(folder / model.file))}
+    return model.model_copy(update=content) if content else model
 
 
 def read_csv(path: Path) -> list[list[float]]:
     """
-    Return the rows t [s], x, y, z [m/s] of a CSV file with a header; other columns are ignored.
+    Return the rows of a time series in a CSV file with a header; other columns are ignored.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    list
+        Rows of time [s] and velocity x, y, z [m/s], world axes.
 
     Raises
     ------

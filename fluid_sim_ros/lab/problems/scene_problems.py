@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from fluid_sim_ros.lab.problems.problem import Problem, of_scene
 from fluid_sim_ros.scene import Scene
-from fluid_sim_ros.schema.weather import Dryden
+from fluid_sim_ros.schema.turbulence import Dryden
 
 
 def swimmer() -> Problem:
