@@ -40,12 +40,12 @@ lint: setup-dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/clang-format --dry-run -Werror fluid_sim_ros/plugins/src/*.cc fluid_sim_ros/plugins/src/*.h
+	$(BIN)/clang-format --dry-run -Werror $(shell find fluid_sim_ros/plugins/src -name "*.cc" -o -name "*.h")
 
 format: setup-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
-	$(BIN)/clang-format -i fluid_sim_ros/plugins/src/*.cc fluid_sim_ros/plugins/src/*.h
+	$(BIN)/clang-format -i $(shell find fluid_sim_ros/plugins/src -name "*.cc" -o -name "*.h")
 
 docs: setup-demo
 	@$(BIN)/python .ci/doc_tables.py

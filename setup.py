@@ -15,6 +15,7 @@ from setuptools.command.build_ext import build_ext
 PACKAGE = 'fluid_sim_ros'
 DESCRIPTION = 'ROS 2 node: MuJoCo with fluid forces for aerial and underwater vehicles'
 MUJOCO_VERSION = '4.0.0'
+SOURCES = Path(PACKAGE, 'plugins', 'src')
 PLUGIN_LIBRARY = f'{PACKAGE}.plugins.libfluid_sim'
 # No contraction to fused multiply-add: results must not depend on the processor.
 COMPILE_FLAGS = [
@@ -61,7 +62,7 @@ def find_compiler():
 
 
 class BuildPluginLibrary(build_ext):
-    """Compile plugins/src/*.cc into a plain shared library (no Python module inside)."""
+    """Compile plugins/src/*/*.cc into a plain shared library (no Python module inside)."""
 
     def get_ext_filename(self, fullname):
         return str(Path(*fullname.split('.'))) + '.so'
@@ -73,11 +74,11 @@ class BuildPluginLibrary(build_ext):
             fail(f'{library.name} is not in {mujoco}; only Linux wheels of mujoco are supported')
         compiler = find_compiler()
         objects = Path(self.build_temp) / 'plugins'
-        objects.mkdir(parents=True, exist_ok=True)
 
         def compile_one(source):
-            target = objects / f'{Path(source).stem}.o'
-            run_compiler([*compiler, *COMPILE_FLAGS, f'-I{mujoco / "include"}',
+            target = (objects / Path(source).relative_to(SOURCES)).with_suffix('.o')
+            target.parent.mkdir(parents=True, exist_ok=True)
+            run_compiler([*compiler, *COMPILE_FLAGS, f'-I{mujoco / "include"}', f'-I{SOURCES}',
                           '-c', source, '-o', str(target)])  # fmt: skip
             return str(target)
 
@@ -101,7 +102,7 @@ def run_compiler(command):
 
 def plugin_files(suffix):
     """Return the plugin library's source files with one suffix."""
-    return sorted(str(path) for path in Path(PACKAGE, 'plugins', 'src').glob(f'*{suffix}'))
+    return sorted(str(path) for path in SOURCES.rglob(f'*{suffix}'))
 
 
 def data(folder):

@@ -32,11 +32,11 @@ def build(package: Path) -> None:
     """Compile the sanitized library into a copy of the package."""
     wheel = Path(mujoco.__file__).parent
     library = wheel / f'libmujoco.so.{mujoco.__version__}'
-    include = f'-I{wheel / "include"}'
-    sources = sorted(str(path) for path in (package / 'plugins/src').glob('*.cc'))
+    include = (f'-I{wheel / "include"}', f'-I{package / "plugins/src"}')
+    sources = sorted(str(path) for path in (package / 'plugins/src').rglob('*.cc'))
     command = [
         'g++', '-std=c++17', '-O1', '-g', '-fPIC', '-shared', '-fvisibility=hidden',
-        '-ffp-contract=off', *FLAGS, PLAIN_MUJOCO, include, *sources, str(library),
+        '-ffp-contract=off', *FLAGS, PLAIN_MUJOCO, *include, *sources, str(library),
         f'-Wl,-rpath,{wheel}', '-o', str(package / 'plugins/libfluid_sim.so'),
     ]  # fmt: skip
     subprocess.run(command, check=True)

@@ -6,8 +6,9 @@ from typing import Any
 
 from fluid_sim_ros.cli.doctor import Row
 from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
+from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.scene import Scene
-from fluid_sim_ros.scene.media import MEDIUM, OPTION
+from fluid_sim_ros.scene.media import OPTION
 from fluid_sim_ros.simulation import Simulation
 
 _SOURCES = {

@@ -4,6 +4,7 @@ import numpy as np
 
 from fluid_sim_ros.physics.environment.grid import AXES
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.plugins.config import medium_of
 from fluid_sim_ros.simulation import Simulation
 
 _STREAMS = ('current', 'wind')
@@ -65,9 +66,5 @@ class GridWatch:
 
 
 def _has_grid(simulation: Simulation) -> bool:
-    model, config = simulation.model, nat.native().plugin_config
-    return any(
-        config(model._address, instance, 'fluid_sim.medium', f'{stream}_grid')
-        for instance in range(model.nplugin)
-        for stream in _STREAMS
-    )
+    medium = medium_of(simulation.model)
+    return medium is not None and any(medium.text(f'{stream}_grid') for stream in _STREAMS)

@@ -1,39 +1,56 @@
-"""ctypes binding of the C functions in the plugin library (plugins/src/api.cc)."""
+"""ctypes binding of the C functions in the plugin library (plugins/src/api/)."""
 
 import ctypes
 from collections.abc import Callable
 from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.errors import PluginError
 from fluid_sim_ros.plugins import load_plugins, plugin_library
 
-#: Names of the published wrench terms, in the order of the C enum ``Term``.
-TERMS = (
-    'drag', 'viscous', 'added_mass', 'magnus', 'kutta', 'buoyancy', 'damping', 'foil',
-)  # fmt: skip
+# What the library says of itself; read from it on first use (``__getattr__`` below), so that each
+# name and number stands once, in plugins/src/shared/terms.h and plugins/src/api/.
 
-# Columns of an observation row (C enum ``Column``).
-POSITION = slice(0, 3)
-QUATERNION = slice(3, 7)
-LINEAR_VELOCITY = slice(7, 10)
-ANGULAR_VELOCITY = slice(10, 13)
-SPECIFIC_FORCE = slice(13, 16)
-ANGULAR_ACCELERATION = slice(16, 19)
-MEDIUM_VELOCITY = slice(19, 22)
-TOTAL = slice(22, 28)
-THRUST = slice(28, 34)
-FIRST_TERM = 34
-ROW_WIDTH = FIRST_TERM + 6 * len(TERMS)
-
-#: What ``Native.thruster`` writes: speed and commanded speed [rad/s], thrust [N], shaft torque
-#: [N m], inflow along the thrust axis [m/s], and 1 where the command saturates.
-THRUSTER_VALUES = ('rad_s', 'rad_s_commanded', 'thrust', 'torque', 'inflow', 'saturated')
+#: Names of the published wrench terms, in their order.
+TERMS: tuple[str, ...]
+# Columns of an observation row; units and frames stand at ``enum Column`` in api/api.h.
+POSITION: slice
+QUATERNION: slice
+LINEAR_VELOCITY: slice
+ANGULAR_VELOCITY: slice
+SPECIFIC_FORCE: slice
+ANGULAR_ACCELERATION: slice
+MEDIUM_VELOCITY: slice
+TOTAL: slice
+THRUST: slice
+ROW_WIDTH: int
+#: What ``Native.thruster`` writes; units stand at ``kThrusterValues`` in api/thruster.cc.
+THRUSTER_VALUES: tuple[str, ...]
 
 
 def term_columns(term: str) -> slice:
-    """Return the columns of a term's force and torque in an observation row."""
-    start = FIRST_TERM + 6 * TERMS.index(term)
-    return slice(start, start + 6)
+    """
+    Return the columns of a term's wrench in an observation row.
+
+    Parameters
+    ----------
+    term
+        One of ``TERMS``.
+
+    Returns
+    -------
+    columns
+        Six: force [N], then torque [N m], base_link axes, about the base_link origin.
+
+    Raises
+    ------
+    ValueError
+        If there is no such term.
+
+    """
+    terms = native().columns['terms']
+    index = native().terms.index(term)
+    return slice(terms.start + 6 * index, terms.start + 6 * (index + 1))
 
 
 class Native:
@@ -56,7 +73,7 @@ class Native:
     over n points and returns 2 where it has waves.
     ``beyond_grids(model, data, point, out) -> int`` writes how far a point lies beyond the ends of
     the current's and the wind's grid (t, x, y, z each) and returns 1 if it does. See
-    plugins/src/api*.cc for their meaning.
+    plugins/src/api/ for their meaning.
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
@@ -116,13 +133,14 @@ class Native:
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p
         self._plugin_config = library.fsr_plugin_config
-        library.fsr_plugin_config.argtypes = [pointer, integer, ctypes.c_char_p, ctypes.c_char_p]
+        library.fsr_plugin_config.argtypes = [pointer, integer, ctypes.c_char_p]
         library.fsr_plugin_config.restype = ctypes.c_char_p
-        if library.fsr_row_width() != ROW_WIDTH or library.fsr_term_count() != len(TERMS):
-            raise PluginError(
-                f'{plugin_library()} and native.py are of different versions; '
-                'reinstall the package'
-            )
+        self._plugin_name = library.fsr_plugin_name
+        library.fsr_plugin_name.argtypes = [pointer, integer]
+        library.fsr_plugin_name.restype = ctypes.c_char_p
+        self.terms = _names(library.fsr_term)
+        self.thruster_values = _names(library.fsr_thruster_value)
+        self.columns = _columns(library.fsr_columns)
 
     def plugin_keys(self, plugin: str) -> tuple[str, ...]:
         """Return the configuration keys of a plugin, empty for one that is not known."""
@@ -131,14 +149,95 @@ class Native:
             keys.append(key.decode())
         return tuple(keys)
 
-    def plugin_config(self, model: int, instance: int, plugin: str, key: str) -> str:
-        """Return a key's value in a plugin instance of a model (its address), or ''."""
-        value = self._plugin_config(model, instance, plugin.encode(), key.encode())
+    def plugin_name(self, model: int, instance: int) -> str:
+        """
+        Return the name of the plugin of an instance, '' for one that MuJoCo does not know.
+
+        Parameters
+        ----------
+        model
+            Address of an ``mjModel``.
+        instance
+            Index of the plugin instance.
+
+        """
+        name: bytes = self._plugin_name(model, instance)
+        return name.decode()
+
+    def plugin_config(self, model: int, instance: int, key: str) -> str:
+        """
+        Return the value of a key of a plugin instance, '' where it is not given.
+
+        Callers outside of this room use ``plugins.config``.
+
+        Parameters
+        ----------
+        model
+            Address of an ``mjModel``.
+        instance
+            Index of the plugin instance.
+        key
+            Name of the key.
+
+        """
+        value = self._plugin_config(model, instance, key.encode())
         return value.decode() if value else ''
 
 
 @cache
 def native() -> Native:
-    """Load the plugin library (once) and return its C functions."""
+    """
+    Load the plugin library (once) and return its C functions.
+
+    Raises
+    ------
+    PluginError
+        If the library is missing, or does not fit MuJoCo or this module.
+
+    """
     load_plugins()
-    return Native(ctypes.CDLL(str(plugin_library())))
+    path = plugin_library()
+    try:
+        return Native(ctypes.CDLL(str(path)))
+    except AttributeError as error:
+        raise PluginError(
+            f'{path.name} and native.py are of different versions; '
+            f'reinstall fluid_sim_ros ({error})'
+        ) from error
+
+
+def _names(function: Any) -> tuple[str, ...]:
+    """Return the names that a C function gives for 0, 1, ... up to the first null."""
+    function.argtypes = [ctypes.c_int]
+    function.restype = ctypes.c_char_p
+    names: list[str] = []
+    while (name := function(len(names))) is not None:
+        names.append(name.decode())
+    return tuple(names)
+
+
+def _columns(function: Any) -> dict[str, slice]:
+    bounds = (ctypes.c_int * 2)()
+    function.argtypes = [ctypes.c_int, ctypes.c_void_p]
+    function.restype = ctypes.c_char_p
+    columns: dict[str, slice] = {}
+    while (name := function(len(columns), bounds)) is not None:
+        columns[name.decode()] = slice(*bounds)
+    return columns
+
+
+if not TYPE_CHECKING:  # a type checker knows the names from their declarations above
+
+    def __getattr__(name: str) -> object:
+        if name not in __annotations__:
+            raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+        library = native()
+        columns = {name.upper(): columns for name, columns in library.columns.items()}
+        width = columns.pop('TERMS').stop
+        globals().update(
+            columns,
+            TERMS=library.terms,
+            ROW_WIDTH=width,
+            THRUSTER_VALUES=library.thruster_values,
+        )
+        return globals()[name]

@@ -5,12 +5,12 @@ from pathlib import Path
 import mujoco
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.plugins.config import BODY, FOIL, THRUSTER, medium_of, plugin_of_body
 from fluid_sim_ros.plugins.messages import load_error_line
-from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.schema.settings import FLUID_RUNGS
 
 #: Passive plugins that stand on a body.
-_ON_BODIES = ('fluid_sim.body', 'fluid_sim.foil')
+_ON_BODIES = (BODY, FOIL)
 
 
 def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
@@ -79,21 +79,18 @@ def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
     fluid gives nothing where there is none).
     """
     full = compile_spec(spec, path)
-    config = native().plugin_config
     implicit = []
-    for instance in range(full.nplugin):
-        for key in ('density', 'viscosity'):
-            value = config(full._address, instance, 'fluid_sim.medium', key)
-            if value:
-                setattr(spec.option, key, float(value))
+    if medium := medium_of(full):
+        spec.option.density = medium.number('density', spec.option.density)
+        spec.option.viscosity = medium.number('viscosity', spec.option.viscosity)
     ours = {plugin.name for plugin in spec.plugins if plugin.plugin_name in _ON_BODIES}
     for body in spec.bodies:
         reference = body.plugin
         if reference.active and (
             reference.plugin_name in _ON_BODIES or reference.name in ours - {''}
         ):
-            instance = full.body_plugin[full.body(body.name).id]
-            if config(full._address, instance, 'fluid_sim.body', 'volume'):
+            instance = plugin_of_body(full, full.body(body.name).id, BODY)
+            if instance and instance.text('volume'):
                 body.gravcomp = 1.0
             if reference.id >= 0:  # configured on the body itself, not a named instance
                 implicit.append(reference.id)
@@ -101,6 +98,6 @@ def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
             reference.active = False
     for number, plugin in enumerate(list(spec.plugins)):
         name = plugin.plugin_name
-        fluid = name.startswith('fluid_sim.') and name != 'fluid_sim.thruster'
+        fluid = name.startswith('fluid_sim.') and name != THRUSTER
         if number in implicit or fluid:
             spec.delete(plugin)

@@ -5,10 +5,8 @@ from dataclasses import dataclass
 
 import mujoco
 
-from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.plugins.config import medium_of
 
-#: The plugin that gives each body the flow of its place and time.
-MEDIUM = 'fluid_sim.medium'
 #: Where a plain velocity of the whole scene stands.
 OPTION = 'opt.wind'
 #: Above this density the one medium of a scene without a stated one is water [kg/m^3]; it lies
@@ -18,13 +16,9 @@ _WATER_DENSITY = 100.0
 
 def streams_of(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:
     """Return which of wind and current a model has: both where a free surface parts two fluids."""
-    density = model.opt.density
-    for instance in range(model.nplugin):
-        surface = native().plugin_config(model._address, instance, MEDIUM, 'surface')
-        if surface not in ('', 'none'):
-            return ('wind', 'current')
-        stated = native().plugin_config(model._address, instance, MEDIUM, 'density')
-        density = float(stated) if stated else density
+    if _surface(model) is not None:
+        return ('wind', 'current')
+    density = _number(model, 'density', model.opt.density)
     water = medium == 'water' if medium else density > _WATER_DENSITY
     return ('current',) if water else ('wind',)
 
@@ -51,16 +45,23 @@ class Fluids:
     @classmethod
     def of(cls, model: mujoco.MjModel, streams: tuple[str, ...]) -> 'Fluids':
         """Return the fluids of a model, from its medium or its options; see ``streams_of``."""
-        density = float(_stated(model, 'density') or model.opt.density)
-        surface = _stated(model, 'surface')
-        if surface not in ('', 'none'):
-            return cls(float(surface), density, float(_stated(model, 'density_above') or 0.0))
+        density = _number(model, 'density', model.opt.density)
+        surface = _surface(model)
+        if surface is not None:
+            return cls(surface, density, _number(model, 'density_above', 0.0))
         if 'current' in streams:
             return cls(0.0, density, 0.0)
         return cls(-math.inf, 0.0, density)
 
 
-def _stated(model: mujoco.MjModel, key: str) -> str:
-    """Return a key of the model's fluid_sim.medium, '' without one."""
-    values = (native().plugin_config(model._address, i, MEDIUM, key) for i in range(model.nplugin))
-    return next(filter(None, values), '')
+def _number(model: mujoco.MjModel, key: str, default: float) -> float:
+    """Return a number of the model's fluid_sim.medium, or the default without one."""
+    medium = medium_of(model)
+    return medium.number(key, default) if medium else default
+
+
+def _surface(model: mujoco.MjModel) -> float | None:
+    """Return the mean height of the free surface, world z [m], or nothing without a surface."""
+    medium = medium_of(model)
+    stated = medium.text('surface') if medium else ''
+    return None if stated in ('', 'none') else float(stated)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
-from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.plugins.config import THRUSTER, plugin_of_actuator
 from fluid_sim_ros.schema.base import NAME_PATTERN
 from fluid_sim_ros.schema.scene import VehicleFile
 from fluid_sim_ros.schema.sensors import SensorsFile
@@ -151,12 +151,8 @@ def _actuators(model: mujoco.MjModel, root: int, transmission: int) -> list[str]
 
 def is_reaction_torque(model: mujoco.MjModel, actuator: int) -> bool:
     """Return whether an actuator is the torque of a fluid_sim.thruster; its control is unread."""
-    instance = int(model.actuator_plugin[actuator])
-    return (
-        instance >= 0
-        and bool(native().plugin_config(model._address, instance, 'fluid_sim.thruster', 'curve'))
-        and not model.actuator_gear[actuator, :3].any()
-    )
+    thruster = plugin_of_actuator(model, actuator, THRUSTER)
+    return thruster is not None and not model.actuator_gear[actuator, :3].any()
 
 
 def _is_below(model: mujoco.MjModel, body: int, root: int) -> bool:

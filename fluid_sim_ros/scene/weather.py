@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import mujoco
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.scene.grid_files import unpack
-from fluid_sim_ros.scene.media import MEDIUM
 from fluid_sim_ros.schema.flow_model import FlowModel
 from fluid_sim_ros.schema.mean_flow import Steady
 

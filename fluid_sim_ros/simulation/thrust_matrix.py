@@ -8,10 +8,9 @@ import numpy as np
 from fluid_sim_ros.control.allocation import Allocator
 from fluid_sim_ros.errors import CommandError, ConfigError
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.plugins.config import THRUSTER, plugin_of_actuator
 from fluid_sim_ros.scene.vehicle import Vehicle, is_reaction_torque
 
-_THRUSTER = 'fluid_sim.thruster'
 #: A wrench is met when it is off by less than this share of what was asked.
 _MET = 1e-6
 
@@ -60,9 +59,9 @@ def _column(
 
 def _gain(model: mujoco.MjModel, name: str, actuator: int) -> float:
     """Return the force at a control of 1."""
-    instance = int(model.actuator_plugin[actuator])
-    if instance >= 0:
-        unit = native().plugin_config(model._address, instance, _THRUSTER, 'command')
+    thruster = plugin_of_actuator(model, actuator, THRUSTER)
+    if thruster:
+        unit = thruster.text('command')
         if unit not in ('', 'newton'):
             raise ConfigError(
                 f"thruster '{name}' is commanded in {unit}; allowed for an allocated wrench: "
@@ -80,22 +79,16 @@ def _gain(model: mujoco.MjModel, name: str, actuator: int) -> float:
 
 def _reaction(model: mujoco.MjModel, actuator: int) -> float:
     """Return spin times torque over thrust at rest [m] of a fluid_sim.thruster with a reaction."""
-    instance = int(model.actuator_plugin[actuator])
-    if instance < 0 or not any(
-        model.actuator_plugin[i] == instance and is_reaction_torque(model, i)
+    thruster = plugin_of_actuator(model, actuator, THRUSTER)
+    if not thruster or not any(
+        model.actuator_plugin[i] == thruster.index and is_reaction_torque(model, i)
         for i in range(model.nactuator)
     ):
         return 0.0
-
-    def number(key: str) -> float:
-        value = native().plugin_config(model._address, instance, _THRUSTER, key)
-        return float(value.split()[0]) if value else 0.0
-
-    ratio = number('torque_ratio')
-    if number('thrust_coefficients'):  # at rest Q/T = D c_Q0 / c_T0
-        ratio = number('diameter') * number('torque_coefficients') / number('thrust_coefficients')
-    clockwise = native().plugin_config(model._address, instance, _THRUSTER, 'spin') == 'cw'
-    return -ratio if clockwise else ratio
+    ratio, at_rest = thruster.number('torque_ratio'), thruster.number('thrust_coefficients')
+    if at_rest:  # at rest Q/T = D c_Q0 / c_T0
+        ratio = thruster.number('diameter') * thruster.number('torque_coefficients') / at_rest
+    return -ratio if thruster.text('spin') == 'cw' else ratio
 
 
 class WrenchAllocation:

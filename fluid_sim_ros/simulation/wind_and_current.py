@@ -6,8 +6,9 @@ import numpy as np
 
 from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.plugins.native import native
-from fluid_sim_ros.scene.media import MEDIUM, OPTION
+from fluid_sim_ros.scene.media import OPTION
 from fluid_sim_ros.simulation.engine import Engine
 
 STREAMS = ('wind', 'current')

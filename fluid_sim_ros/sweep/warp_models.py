@@ -10,11 +10,10 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.plugins.config import plugin_instances
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.sweep.sweep_file import SweepFile
 
-_OURS = {f'fluid_sim.{name}' for name in ('body', 'foil', 'medium', 'thruster')}
 #: Factor on the masses that vary, to see which constants of a model follow from them.
 _PROBE = 2.0
 
@@ -52,16 +51,7 @@ def check_stock(sweep: SweepFile, simulation: Simulation, steps: int, device: st
 
 def _plugins(simulation: Simulation) -> str:
     """Return the names of the plugins in a model."""
-    library, model = native(), simulation.model
-    stated = {plugin.plugin_name for plugin in simulation.scene.read_model().plugins} | _OURS
-    used = {
-        name for name in stated for instance in range(model.nplugin)
-        if any(
-            library.plugin_config(model._address, instance, name, key)
-            for key in library.plugin_keys(name)
-        )
-    }  # fmt: skip
-    return listed(sorted(used)) or 'a plugin'
+    return listed(sorted({instance.plugin for instance in plugin_instances(simulation.model)}))
 
 
 def with_masses(model: mujoco.MjModel, factors: Mapping[str, float]) -> mujoco.MjModel:

@@ -7,7 +7,8 @@ import pytest
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.cli.scene import examine_scene
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.scene.media import MEDIUM, OPTION
+from fluid_sim_ros.plugins.config import MEDIUM
+from fluid_sim_ros.scene.media import OPTION
 
 AIR = """
 <mujoco>

@@ -1,0 +1,40 @@
+// C function for Python (bound in plugins/native.py): many runs of one model in a single call.
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "api/api.h"
+
+using namespace fluid_sim;
+
+// Fly `runs` runs of `steps` steps, each as fsr_step and fsr_look do it: from its state (of
+// mjSTATE_INTEGRATION) in `states`, in its wind of `winds` (opt.wind, which the last one leaves in
+// the model), with a look at the `count` bases every `period` steps and at the end. A run ends at
+// its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count * width]
+// at the end, largest[3 * count], which the caller has set to zero.
+FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, int count, int runs,
+                      int steps, int period, const double* states, const double* winds, int* done,
+                      double* reports, double* rows, double* largest) {
+  const int size = mj_stateSize(m, mjSTATE_INTEGRATION);
+  const int width = kRowWidth;
+  std::vector<double> start(3 * count);
+  for (int run = 0; run < runs; ++run) {
+    mj_resetData(m, d);
+    mj_setState(m, d, states + run * size, mjSTATE_INTEGRATION);
+    mju_copy3(m->opt.wind, winds + 3 * run);
+    double* run_rows = rows + run * count * width;
+    fsr_observe(m, d, scratch, bases, count, 0, run_rows);
+    for (int i = 0; i < count; ++i) mju_copy3(start.data() + 3 * i, run_rows + width * i);
+    done[run] = 0;
+    while (done[run] < steps) {
+      const int left = steps - done[run];
+      const int n = left < period ? left : period;
+      const int good = fsr_step(m, d, n, reports + 2 * run);
+      done[run] += good;
+      if (good < n) break;
+      fsr_look(m, d, scratch, bases, count, start.data(), largest + 3 * count * run, run_rows);
+    }
+    fsr_observe(m, d, scratch, bases, count, 0, run_rows);
+  }
+}

@@ -1,0 +1,57 @@
+// One assembly per evaluation: medium, then every body, then every foil, in a fixed order.
+//
+// MuJoCo calls each plugin instance on its own. The first passive fluid_sim instance (lowest id)
+// does the work of all, because the rigid-body inertia must be restored once before the added
+// masses are written into it and factored once after.
+
+#ifndef FLUID_SIM_ASSEMBLY_ASSEMBLY_H_
+#define FLUID_SIM_ASSEMBLY_ASSEMBLY_H_
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "body/body.h"
+#include "foil/foil.h"
+#include "medium/medium.h"
+#include "shared/terms.h"
+
+namespace fluid_sim {
+
+// Constants of a model, owned by the plugin data of one mjData.
+struct Assembly {
+  int owner = -1;  // instance that evaluates
+  Medium medium;
+  std::vector<BodyFluid> bodies;  // ascending body id
+  std::vector<Foil> foils;        // by instance and site
+};
+
+// The assembly of a data, or null for a model without fluid_sim plugins.
+const Assembly* FindAssembly(const mjModel* m, const mjData* d);
+
+// Kinetic energy [J] of the bodies and of the flow that their added masses stand for, and the power
+// [W] that both lose where the surface passes. `d` must hold positions and velocities; its inertia
+// matrix is rewritten.
+struct EnergyState {
+  mjtNum bodies = 0, flow = 0, surface_loss = 0;
+};
+EnergyState KineticEnergy(const mjModel* m, mjData* d);
+
+// Add the plugin's terms of `body` in world axes about `point_w`. With `acceleration` the added
+// mass also resists d->qacc. Both need positions and velocities of the state in question.
+void AddPluginTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                    bool acceleration, Wrench terms[kTermCount]);
+
+// Add the terms of MuJoCo's own fluid forces on `body`, in the flow that it meets, likewise.
+void AddLocalStockTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                        Wrench terms[kTermCount]);
+
+// The fluid that a world point of `body` lies in.
+Flow FluidAround(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3]);
+
+// Register fluid_sim.body, fluid_sim.medium and fluid_sim.foil.
+void RegisterAssembly();
+
+}  // namespace fluid_sim
+
+#endif  // FLUID_SIM_ASSEMBLY_ASSEMBLY_H_

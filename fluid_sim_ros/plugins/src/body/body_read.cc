@@ -1,0 +1,289 @@
+// Reads the attributes of fluid_sim.body (units, signs and defaults: doc/plugins.md).
+
+#include <cmath>
+#include <cstdio>
+
+#include "body/body.h"
+#include "body/body_checks.h"
+#include "body/kappa.h"
+#include "shared/numbers.h"
+#include "shared/spatial.h"
+#include "shared/terms.h"
+
+namespace fluid_sim {
+namespace {
+
+bool IsFluidGeom(const mjModel* m, int geom) { return m->geom_fluid[mjNFLUID * geom] > 0; }
+
+std::vector<int> FluidGeoms(const mjModel* m, int body) {
+  std::vector<int> geoms;
+  for (int i = 0; i < m->body_geomnum[body]; ++i) {
+    if (IsFluidGeom(m, m->body_geomadr[body] + i)) geoms.push_back(m->body_geomadr[body] + i);
+  }
+  return geoms;
+}
+
+// A 6x6 matrix from its diagonal (6), its upper triangle row by row (21) or all of it (36).
+bool ReadMatrix6(const Config& config, const char* key, std::initializer_list<int> counts,
+                 const char* allowed, bool* given, mjtNum out[36]) {
+  std::vector<mjtNum> numbers;
+  if (!config.Numbers(key, counts, allowed, &numbers)) return false;
+  *given = !numbers.empty();
+  if (numbers.size() == 36) mju_copy(out, numbers.data(), 36);
+  size_t next = 0;
+  for (int i = 0; i < 6 && *given && numbers.size() != 36; ++i) {
+    for (int j = i; j < (numbers.size() == 6 ? i + 1 : 6); ++j) {
+      out[6 * i + j] = out[6 * j + i] = numbers[next++];
+    }
+  }
+  return true;
+}
+
+// Diagonal added mass at a geom, about the body's reference point in body axes.
+void AddGeomMatrix(const mjModel* m, int geom, const mjtNum mass[3], const mjtNum inertia[3],
+                   const mjtNum point[3], mjtNum target[36]) {
+  mjtNum diagonal[36] = {0}, turned[36], shifted[36], rotation[9], offset[3];
+  for (int i = 0; i < 3; ++i) {
+    diagonal[7 * i] = mass[i];
+    diagonal[7 * (3 + i)] = inertia[i];
+  }
+  mju_quat2Mat(rotation, m->geom_quat + 4 * geom);
+  mju_sub3(offset, point, m->geom_pos + 3 * geom);
+  RotateMatrix6(turned, diagonal, rotation);
+  ShiftMatrix6(shifted, turned, offset);
+  AddScaled36(target, shifted, m->geom_fluid[mjNFLUID * geom]);
+}
+
+bool ReadAddedMass(const mjModel* m, const Config& config, BodyFluid* out) {
+  const std::vector<int> geoms = FluidGeoms(m, out->id);
+  if (config.Text("added_mass") == "auto") {
+    if (geoms.empty()) {
+      return config.Refuse("added_mass",
+                           "auto needs a geom with fluidshape=\"ellipsoid\" on this body; or "
+                           "6, 21 or 36 numbers");
+    }
+    out->added_mass = out->per_density = true;
+    for (int geom : geoms) {
+      mjtNum mass[3], inertia[3];
+      EllipsoidAddedMass(GeomEllipsoid(m, geom).semiaxes, mass, inertia);
+      AddGeomMatrix(m, geom, mass, inertia, out->point, out->a);
+    }
+  } else if (!ReadMatrix6(config, "added_mass", {6, 21, 36},
+                          "auto, or 6, 21 or 36 numbers [kg], [kg m], [kg m^2]", &out->added_mass,
+                          out->a) ||
+             (out->added_mass && !CheckSemidefinite(config, "added_mass", out->a, true))) {
+    return false;
+  }
+  if (!out->added_mass || out->drag != Drag::kBuiltin) return true;
+  for (int geom : geoms) {
+    const mjtNum* fluid = m->geom_fluid + mjNFLUID * geom;
+    AddGeomMatrix(m, geom, fluid + 6, fluid + 9, out->point, out->builtin);
+    out->has_builtin = true;
+  }
+  return true;
+}
+
+bool ReadCrossTerms(const Config& config, Damping* damping) {
+  constexpr char kAllowed[] =
+      "groups of `row absolute linear coefficient`, indices 1..6: force_row -= coefficient "
+      "|nu_absolute| nu_linear";
+  std::vector<mjtNum> numbers;
+  for (const std::string& word : Split(config.Text("cross_damping"))) {
+    mjtNum number;
+    if (!ParseNumber(word, &number)) return config.Refuse("cross_damping", kAllowed);
+    numbers.push_back(number);
+  }
+  if (numbers.size() % 4) return config.Refuse("cross_damping", kAllowed);
+  for (size_t i = 0; i < numbers.size(); i += 4) {
+    for (size_t k = i; k < i + 3; ++k) {
+      if (numbers[k] != std::floor(numbers[k]) || numbers[k] < 1 || numbers[k] > 6) {
+        return config.Refuse("cross_damping", kAllowed);
+      }
+    }
+    damping->cross.push_back({static_cast<int>(numbers[i]) - 1,
+                              static_cast<int>(numbers[i + 1]) - 1,
+                              static_cast<int>(numbers[i + 2]) - 1, numbers[i + 3]});
+  }
+  return true;
+}
+
+// Whether two terms are of one product in one row.
+bool SamePair(const CrossTerm& a, const CrossTerm& b) {
+  const bool same = a.absolute == b.absolute && a.linear == b.linear;
+  const bool swapped = a.absolute == b.linear && a.linear == b.absolute;
+  return a.row == b.row && (same || swapped);
+}
+
+// Published cross terms are totals: what the added mass gives of them is not to be there twice.
+bool ReadTotals(const mjModel* m, const Config& config, const Medium& medium, BodyFluid* out) {
+  const int total = config.Word("cross_damping_total", {"false", "true"});
+  if (total <= 0) return total == 0;
+  std::vector<CrossTerm>& terms = out->damping.cross;
+  if (terms.empty()) return config.Fail("cross_damping_total needs cross_damping");
+  for (size_t i = 0; i < terms.size(); ++i) {
+    bool once = terms[i].absolute != terms[i].linear;
+    for (size_t k = 0; k < i; ++k) once &= !SamePair(terms[i], terms[k]);
+    if (once) continue;
+    return config.Refuse("cross_damping",
+                         "with cross_damping_total, pairs of two different velocities, each pair "
+                         "once in a row");
+  }
+  mjtNum a[36] = {0};
+  AddScaled36(a, out->a, out->per_density ? LowerDensity(medium, m) : 1);
+  TakeOffConvection(a, &terms);
+  return true;
+}
+
+bool ReadDamping(const Config& config, Damping* damping) {
+  bool linear, quadratic;
+  if (!ReadMatrix6(config, "linear_damping", {6, 36}, "6 or 36 numbers [N s/m], [N s], [N m s]",
+                   &linear, damping->linear) ||
+      !ReadMatrix6(config, "quadratic_damping", {6, 36},
+                   "6 or 36 numbers [N s^2/m^2], [N s^2/m], [N s^2], [N m s^2]", &quadratic,
+                   damping->quadratic) ||
+      (linear && !CheckSemidefinite(config, "linear_damping", damping->linear, false)) ||
+      (quadratic && !CheckDiagonal(config, "quadratic_damping", damping->quadratic)) ||
+      !ReadCrossTerms(config, damping)) {
+    return false;
+  }
+  damping->any = linear || quadratic || !damping->cross.empty();
+  return true;
+}
+
+bool ReadSpinDamping(const Config& config, BodyFluid* out) {
+  std::vector<mjtNum> spin;
+  const char* allowed = "1 or 3 numbers >= 0 [m^5/s], times the density";
+  if (!config.Numbers("rotational_damping", {1, 3}, allowed, &spin)) return false;
+  for (size_t i = 0; i < 3 && !spin.empty(); ++i) {
+    out->spin_damping[i] = spin[spin.size() == 1 ? 0 : i];
+    if (out->spin_damping[i] < 0) return config.Refuse("rotational_damping", allowed);
+  }
+  return true;
+}
+
+bool ReadDrag(const mjModel* m, const Config& config, BodyFluid* out) {
+  const int drag = config.Word("drag", {"builtin", "ellipsoid", "none"});
+  const int area = config.Word("drag_area", {"lemma", "true"});
+  const int reynolds = config.Word("drag_reynolds", {"constant", "brown_lawler"});
+  if (drag < 0 || area < 0 || reynolds < 0 || !ReadSpinDamping(config, out)) return false;
+  out->drag = static_cast<Drag>(drag);
+  out->options = {area == 1, reynolds == 1};
+  if (out->drag != Drag::kEllipsoid) {
+    for (const char* key : {"drag_area", "drag_reynolds", "rotational_damping"}) {
+      if (config.Has(key)) return config.Fail(std::string(key) + " needs drag=\"ellipsoid\"");
+    }
+    return true;
+  }
+  for (int geom : FluidGeoms(m, out->id)) {
+    DragEllipsoid part;
+    mju_copy3(part.position, m->geom_pos + 3 * geom);
+    mju_quat2Mat(part.rotation, m->geom_quat + 4 * geom);
+    part.shape = GeomEllipsoid(m, geom);
+    part.scale = m->geom_fluid[mjNFLUID * geom];
+    out->ellipsoids.push_back(part);
+  }
+  if (!out->ellipsoids.empty()) return true;
+  return config.Refuse("drag", "ellipsoid needs a geom with fluidshape=\"ellipsoid\"");
+}
+
+// Geoms that displace fluid: those named, else those with fluidshape, else those that collide.
+bool DisplacingGeoms(const mjModel* m, const Config& config, int body, std::vector<int>* geoms) {
+  for (const std::string& name : Split(config.Text("geoms"))) {
+    const int geom = mj_name2id(m, mjOBJ_GEOM, name.c_str());
+    if (geom < 0 || m->geom_bodyid[geom] != body) {
+      return config.Refuse("geoms", "names of geoms of this body ('" + name + "' is none)");
+    }
+    geoms->push_back(geom);
+  }
+  if (geoms->empty()) *geoms = FluidGeoms(m, body);
+  for (int i = 0; i < m->body_geomnum[body] && !config.Has("geoms"); ++i) {
+    const int geom = m->body_geomadr[body] + i;
+    const bool collides = m->geom_contype[geom] || m->geom_conaffinity[geom];
+    if (collides && FluidGeoms(m, body).empty()) geoms->push_back(geom);
+  }
+  return true;
+}
+
+bool ReadSolids(const mjModel* m, const Config& config, BodyFluid* out) {
+  std::vector<int> geoms;
+  if (!DisplacingGeoms(m, config, out->id, &geoms)) return false;
+  const bool needed = config.Has("geoms") || config.Text("volume") == "auto";
+  for (int geom : geoms) {
+    Solid solid;
+    std::string reason;
+    if (GeomSolid(m, geom, &solid, &reason)) {
+      out->solids.push_back(solid);
+    } else if (needed) {
+      const char* name = mj_id2name(m, mjOBJ_GEOM, geom);
+      return config.Fail("geom '" + std::string(name ? name : "") + "' " + reason +
+                         "; name others by geoms, or give volume [m^3]");
+    }
+  }
+  return true;
+}
+
+bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
+  std::vector<mjtNum> center;
+  if (!config.Numbers("center_of_buoyancy", {3}, "3 numbers [m], body axes", &center) ||
+      !ReadSolids(m, config, out)) {
+    return false;
+  }
+  out->buoyant = config.Has("volume");
+  const bool automatic = config.Text("volume") == "auto";
+  if (!out->buoyant && !center.empty()) return config.Fail("center_of_buoyancy needs volume");
+  if (automatic && out->solids.empty()) {
+    return config.Refuse("volume",
+                         "auto needs a sphere, ellipsoid, capsule, cylinder, box or "
+                         "mesh geom on this body; or a number > 0 [m^3]");
+  }
+  if (out->buoyant && !automatic &&
+      !config.Number("volume", kTiny, kInfinity, "auto or a number > 0 [m^3]", &out->volume)) {
+    return false;
+  }
+  if (out->solids.empty() && out->buoyant) {
+    const mjtNum* at = center.empty() ? m->body_ipos + 3 * out->id : center.data();
+    out->solids.push_back(BallSolid(out->volume, at));
+  }
+  for (const Solid& solid : out->solids) {
+    out->solid_volume += solid.volume;
+    mju_addToScl3(out->solid_moment, solid.center, solid.volume);
+  }
+  for (const Solid& solid : out->solids) {
+    mjtNum middle[3];
+    mju_scl3(middle, out->solid_moment, 1 / out->solid_volume);
+    out->solid_radius = std::max(out->solid_radius, mju_dist3(solid.center, middle) + solid.radius);
+  }
+  if (automatic) out->volume = out->solid_volume;
+  if (center.empty()) return true;
+  mju_addScl3(out->center_shift, center.data(), out->solid_moment, -1 / out->solid_volume);
+  return true;
+}
+
+}  // namespace
+
+const char* const kBodyAttributes[] = {
+    "added_mass",    "reference_point",     "linear_damping", "quadratic_damping",
+    "cross_damping", "cross_damping_total", "drag",           "drag_area",
+    "drag_reynolds", "rotational_damping",  "volume",         "center_of_buoyancy",
+    "geoms"};
+const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
+
+bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, BodyFluid* out) {
+  const Config config(m, instance, BodyTitle(m, body));
+  out->id = body;
+  std::vector<mjtNum> point;
+  if (!config.Numbers("reference_point", {3}, "3 numbers [m], body axes", &point)) return false;
+  if (!point.empty()) mju_copy3(out->point, point.data());
+  if (!ReadDrag(m, config, out) || !ReadAddedMass(m, config, out) ||
+      !ReadDamping(config, &out->damping) || !ReadTotals(m, config, medium, out) ||
+      !ReadBuoyancy(m, config, out)) {
+    return false;
+  }
+  if (!point.empty() && !out->added_mass && !out->damping.any) {
+    return config.Fail("reference_point needs added_mass or damping");
+  }
+  out->free_dof = FreeTreeDof(m, body);
+  return CheckBody(m, config, medium, *out);
+}
+
+}  // namespace fluid_sim

@@ -1,0 +1,124 @@
+#include "body/inertia.h"
+
+#include "shared/spatial.h"
+
+namespace fluid_sim {
+namespace {
+
+// Last dof of the chain that moves the body.
+int ChainDof(const mjModel* m, int body) {
+  while (m->body_dofnum[body] == 0) body = m->body_parentid[body];
+  return m->body_dofadr[body] + m->body_dofnum[body] - 1;
+}
+
+// Vector from the tree's centre of mass, where cdof refers to, to O, in world axes.
+void ComArm(const mjModel* m, const mjData* d, const BodyFluid& body, const Motion& motion,
+            mjtNum arm[3]) {
+  mju_sub3(arm, motion.point_w, d->subtree_com + 3 * m->body_rootid[body.id]);
+}
+
+// Rigid inertia of a body about its frame's origin, in body axes.
+void RigidMatrix(const mjModel* m, const BodyFluid& body, mjtNum out[36]) {
+  const mjtNum mass = m->body_mass[body.id];
+  const mjtNum *diagonal = m->body_inertia + 3 * body.id, *center = m->body_ipos + 3 * body.id;
+  mjtNum rotation[9], scaled[9], inertia[9];
+  mju_quat2Mat(rotation, m->body_iquat + 4 * body.id);
+  for (int i = 0; i < 9; ++i) scaled[i] = rotation[i] * diagonal[i % 3];
+  MultiplyTransposed3(inertia, scaled, rotation);
+  mju_zero(out, 36);
+  for (int i = 0; i < 9; ++i) out[6 * (3 + i / 3) + 3 + i % 3] = inertia[i];
+  AddIsotropic6(out, mass, 0, center);
+}
+
+}  // namespace
+
+void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
+                 const mjtNum wrench[6]) {
+  mjtNum force_w[3], torque[3];
+  Rotate(force_w, motion.rotation, wrench);
+  if (body.free_dof >= 0) {  // world force, torque about the origin in body axes
+    mju_copy3(torque, wrench + 3);
+    AddCross(torque, body.point, wrench);
+    for (int i = 0; i < 6; ++i) {
+      const mjtNum value = i < 3 ? force_w[i] : torque[i - 3];
+      d->qfrc_fluid[body.free_dof + i] += value;
+      d->qfrc_passive[body.free_dof + i] += value;
+    }
+    return;
+  }
+  mjtNum arm[3];
+  ComArm(m, d, body, motion, arm);
+  Rotate(torque, motion.rotation, wrench + 3);
+  AddCross(torque, arm, force_w);
+  for (int dof = ChainDof(m, body.id); dof >= 0; dof = m->dof_parentid[dof]) {
+    const mjtNum* axis = d->cdof + 6 * dof;
+    const mjtNum value = mju_dot3(axis, torque) + mju_dot3(axis + 3, force_w);
+    d->qfrc_fluid[dof] += value;
+    d->qfrc_passive[dof] += value;
+  }
+}
+
+void WriteFreeInertia(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
+                      const mjtNum g[36]) {
+  mjtNum total[36], shifted[36];
+  const mjtNum to_origin[3] = {-body.point[0], -body.point[1], -body.point[2]};
+  RigidMatrix(m, body, total);
+  ShiftMatrix6(shifted, g, to_origin);
+  AddScaled36(total, shifted, 1);
+  // velocities of the free joint: linear in world axes, angular in body axes
+  mjtNum linear[9], angular_linear[9], half[9], block[9];
+  for (int i = 0; i < 9; ++i) block[i] = total[6 * (i / 3) + i % 3];
+  Multiply3(half, motion.rotation, block);
+  MultiplyTransposed3(linear, half, motion.rotation);
+  for (int i = 0; i < 9; ++i) block[i] = total[6 * (3 + i / 3) + i % 3];
+  MultiplyTransposed3(angular_linear, block, motion.rotation);
+  for (int i = 0; i < 6; ++i) {
+    const int dof = body.free_dof + i;
+    mjtNum* row = d->M + m->M_rowadr[dof];
+    for (int j = 0; j <= i; ++j) {
+      if (i < 3) {
+        row[j] = linear[3 * i + j];
+      } else {
+        row[j] = j < 3 ? angular_linear[3 * (i - 3) + j] : total[6 * i + j];
+      }
+    }
+    row[i] += m->dof_armature[dof];
+  }
+}
+
+void AddChainInertia(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
+                     const mjtNum g[36]) {
+  // G to world axes about the tree's centre of mass, where every cdof lives
+  mjtNum turned[36], at_com[36], offset[3];
+  RotateMatrix6(turned, g, motion.rotation);
+  ComArm(m, d, body, motion, offset);
+  mju_scl3(offset, offset, -1);
+  ShiftMatrix6(at_com, turned, offset);
+  for (int i = ChainDof(m, body.id); i >= 0; i = m->dof_parentid[i]) {
+    mjtNum axis[6], column[6];  // (linear, angular) motion of dof i and its momentum
+    mju_copy3(axis, d->cdof + 6 * i + 3);
+    mju_copy3(axis + 3, d->cdof + 6 * i);
+    MultiplyMatrix6(column, at_com, axis);
+    // row i of the lower triangle holds exactly the chain from the root to i
+    mjtNum* entry = d->M + m->M_rowadr[i] + m->M_rownnz[i];
+    for (int j = i; j >= 0; j = m->dof_parentid[j]) {
+      const mjtNum* other = d->cdof + 6 * j;
+      *--entry += mju_dot3(other + 3, column) + mju_dot3(other, column + 3);
+    }
+  }
+}
+
+void PointAcceleration(const mjModel* m, const mjData* d, const BodyFluid& body,
+                       const Motion& motion, mjtNum out[6]) {
+  mjtNum linear[3] = {0, 0, 0}, angular[3] = {0, 0, 0}, arm[3];
+  for (int dof = ChainDof(m, body.id); dof >= 0; dof = m->dof_parentid[dof]) {
+    mju_addToScl3(angular, d->cdof + 6 * dof, d->qacc[dof]);
+    mju_addToScl3(linear, d->cdof + 6 * dof + 3, d->qacc[dof]);
+  }
+  ComArm(m, d, body, motion, arm);
+  AddCross(linear, angular, arm);
+  RotateBack(out, motion.rotation, linear);
+  RotateBack(out + 3, motion.rotation, angular);
+}
+
+}  // namespace fluid_sim
