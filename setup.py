@@ -172,6 +172,7 @@ setup(
         'scipy>=1.11,<2',
         'pydantic>=2.7,<3',
         'PyYAML>=6.0,<7',
+        'ruamel.yaml>=0.19,<0.20',
         'pygeomag>=1.1,<2',
         'rich>=13.7,<16',
     ],

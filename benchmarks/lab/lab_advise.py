@@ -17,7 +17,7 @@ import numpy as np
 
 from benchmarks.common import RESULTS, arguments, write
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.lab.advise import advise, note, verify
+from fluid_sim_ros.lab.advise import advise, advised, verify
 from fluid_sim_ros.lab.scene_settings import keep
 from fluid_sim_ros.scene import scene_names
 
@@ -50,14 +50,14 @@ def case(scene: str, tolerance: float) -> dict[str, Any]:
         'runs': len(found['tried']),
     }
     if found['choice']:
-        row |= {'verified': verify(scene, found), 'yaml': note(found)}
+        row |= {'verified': verify(scene, found), 'advised': advised(found)}
     return row
 
 
 def ship(row: dict[str, Any]) -> None:
     """Put the advice into the scene's file, beside the settings that are in force."""
-    if row['tolerance'] == SHIPPED and 'yaml' in row:
-        keep(row['scene'], row['yaml'])
+    if row['tolerance'] == SHIPPED and 'advised' in row:
+        keep(row['scene'], row['advised'])
 
 
 def table(rows: list[dict[str, Any]]) -> str:

@@ -242,9 +242,9 @@ def _advise(arguments: argparse.Namespace, show: Show) -> int:
         )  # fmt: skip
     written = []
     if arguments.keep and advice['choice']:
-        written.append(keep(arguments.scene, lab.note(advice)))
+        written.append(keep(arguments.scene, lab.advised(advice)))
     if arguments.apply and advice['choice']:
-        written.append(apply(arguments.scene, lab.snippet(advice), lab.settings(advice)))
+        written.append(apply(arguments.scene, lab.settings(advice), lab.comment(advice)))
     advice['written'] = [str(path) for path in written]
     show(arguments.json, advice_table(advice, arguments.metric), advice)
     return 0 if advice['choice'] else NOTHING_FITS

@@ -138,23 +138,65 @@ def settings(advice: dict[str, Any]) -> dict[str, Any]:
     return found if choice['rung'] == 'scene' else found | {'fluid': choice['rung']}
 
 
+def comment(advice: dict[str, Any]) -> str:
+    """
+    Return one line on where the choice comes from.
+
+    Parameters
+    ----------
+    advice
+        As ``advise`` returns it, with a choice.
+
+    Returns
+    -------
+    str
+        The command, and the relative error of what it chose.
+
+    """
+    return f'{advice["command"]}: error {advice["choice"]["error"]:.2g} ({advice["metric"]})'
+
+
 def snippet(advice: dict[str, Any]) -> str:
-    """Return the lines that put the choice in force in the scene's YAML file."""
-    choice = advice['choice']
-    head = f'# {advice["command"]}: error {choice["error"]:.2g} ({advice["metric"]})\n'
-    return head + ''.join(f'{key}: {value}\n' for key, value in settings(advice).items())
+    """
+    Return the lines that put the choice in force in the scene's YAML file.
+
+    Parameters
+    ----------
+    advice
+        As ``advise`` returns it, with a choice.
+
+    Returns
+    -------
+    str
+        A comment and the keys of ``settings``.
+
+    """
+    lines = [f'{key}: {value}\n' for key, value in settings(advice).items()]
+    return ''.join([f'# {comment(advice)}\n', *lines])
 
 
-def note(advice: dict[str, Any]) -> str:
-    """Return the lines that keep the choice in the scene's YAML file, as its advised settings."""
-    rows = {
+def advised(advice: dict[str, Any]) -> dict[str, Any]:
+    """
+    Return the advised settings that the scene's YAML file can keep.
+
+    Parameters
+    ----------
+    advice
+        As ``advise`` returns it, with a choice.
+
+    Returns
+    -------
+    dict
+        The fields of ``schema.advised.Advised``.
+
+    """
+    return {
         'command': advice['command'],
         'tolerance': advice['tolerance'],
         'metric': advice['metric'],
         'error': float(f'{advice["choice"]["error"]:.2g}'),
         **settings(advice),
     }
-    return 'advised:\n' + ''.join(f'  {key}: {value}\n' for key, value in rows.items())
 
 
 def _check(tolerance: float, metric_name: str, rate: float, budget: float) -> None:

@@ -1,27 +1,52 @@
-"""Writes advised settings into a scene's YAML file, in force or to be kept, comments kept."""
+"""
+Writes advised settings into a scene's YAML file, in force or to be kept.
 
-import re
-from collections.abc import Callable
+ruamel.yaml makes the change. What it would write in another way than the author did (long lines
+that are wrapped, for example) is taken from the file as it was, so that nothing but the settings
+changes.
+"""
+
+import difflib
+from collections.abc import Callable, Mapping
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import yaml
+from ruamel.yaml import YAML
+from ruamel.yaml.comments import CommentedMap
+from ruamel.yaml.error import YAMLError
+from ruamel.yaml.scalarfloat import ScalarFloat
+from ruamel.yaml.util import load_yaml_guess_indent
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.scene import Scene
 
 _KEYS = ('timestep', 'integrator', 'fluid')
+#: How a line begins that ``apply``, and one that ``keep`` of an earlier release, has left.
+_APPLIED, _KEPT = '# fluid_sim advise ', '# advised '
 
 
 def scene_file(scene: str) -> Path:
     """
-    Return the YAML file of a scene, by name or path.
+    Return the YAML file of a scene.
+
+    Parameters
+    ----------
+    scene
+        Name of a scene, or path of its file.
+
+    Returns
+    -------
+    Path
+        The file, which exists.
 
     Raises
     ------
     ConfigError
-        If it has none.
+        If the scene has no such file.
 
     """
     path = Path(scene)
@@ -35,11 +60,23 @@ def scene_file(scene: str) -> Path:
     return path
 
 
-def apply(scene: str, lines: str, settings: dict[str, Any]) -> Path:
+def apply(scene: str, settings: Mapping[str, Any], comment: str) -> Path:
     """
-    Put settings in force in a scene's file, in place of what it says of them; return the file.
+    Put settings in force in a scene's file, in place of what it says of them.
 
-    ``lines`` is the text, comment included; ``settings`` what a reader must find afterwards.
+    Parameters
+    ----------
+    scene
+        Name of a scene, or path of its file.
+    settings
+        Some of the keys ``timestep`` [s], ``integrator``, ``fluid``; the others are taken out.
+    comment
+        One line above them that says where they come from.
+
+    Returns
+    -------
+    Path
+        The file.
 
     Raises
     ------
@@ -47,48 +84,177 @@ def apply(scene: str, lines: str, settings: dict[str, Any]) -> Path:
         If the file cannot be written, or would not say what it should.
 
     """
-    old = rf'^(?:(?:{"|".join(_KEYS)}):|# fluid_sim advise ).*\n?'
-    return _replaced(
-        scene, old, lines, lambda found: {key: getattr(found, key) for key in _KEYS} == {
-            key: settings.get(key) for key in _KEYS
-        },
-    )  # fmt: skip
+    wanted = {key: settings.get(key) for key in _KEYS}
+
+    def holds(found: Scene) -> bool:
+        return {key: getattr(found, key) for key in _KEYS} == wanted
+
+    return _write(scene, wanted, comment, holds)
 
 
-def keep(scene: str, lines: str) -> Path:
+def keep(scene: str, advised: Mapping[str, Any]) -> Path:
     """
-    Write the advised settings into a scene's file, beside its own; return the file.
+    Write advised settings into a scene's file, beside its own.
+
+    Parameters
+    ----------
+    scene
+        Name of a scene, or path of its file.
+    advised
+        What the key ``advised`` shall hold; see ``schema.advised.Advised``.
+
+    Returns
+    -------
+    Path
+        The file.
 
     Raises
     ------
     ConfigError
-        As for ``apply``.
+        If the file cannot be written, or would not say what it should.
 
     """
-    old = r'^(?:advised:.*\n?(?:[ \t]+.*\n?)*|# advised .*\n?)'
-    wanted = yaml.safe_load(lines)['advised']
-    return _replaced(scene, old, lines, lambda found: (
-        found.advised is not None and found.advised.model_dump(exclude_none=True) == wanted
-    ))  # fmt: skip
+
+    def holds(found: Scene) -> bool:
+        return found.advised is not None and found.advised.model_dump(exclude_none=True) == advised
+
+    return _write(scene, {'advised': dict(advised)}, '', holds)
 
 
-def _replaced(scene: str, old: str, lines: str, right: Callable[[Scene], bool]) -> Path:
-    """Put lines in place of what matches ``old``; undo it where the file then is not right."""
+def _write(
+    scene: str, changes: Mapping[str, Any], comment: str, holds: Callable[[Scene], bool]
+) -> Path:
+    """Change keys of a scene's file; take it back where the file then is not right."""
     path = scene_file(scene)
-    before = path.read_text(encoding='utf-8')
-    text = re.sub(old, '', before, flags=re.MULTILINE)
-    text += lines if text.endswith('\n') else '\n' + lines
     try:
-        path.write_text(text, encoding='utf-8')
+        before = path.read_bytes().decode()
+        path.write_bytes(changed_text(before, changes, comment).encode())
     except OSError as error:
         raise ConfigError(f'{path}: cannot be written ({error.strerror})') from None
+    except (UnicodeDecodeError, YAMLError) as error:
+        line = ' '.join(str(error).split())
+        raise ConfigError(f'{path}: cannot be read as YAML: {line}') from None
     try:
-        good = right(Scene.load(path))
+        good = holds(Scene.load(path)) and _others(before, changes) == _others(
+            path.read_text(encoding='utf-8'), changes
+        )
     except ConfigError:
         good = False
     if not good:
-        path.write_text(before, encoding='utf-8')
+        path.write_bytes(before.encode())
+        lines = _dumped(YAML(), CommentedMap(_stated(changes)))
         raise ConfigError(
             f'{path}: the settings could not be put in; write them by hand:\n{lines}'
         )
     return path
+
+
+def _others(text: str, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a reader finds under the keys that do not change."""
+    content = yaml.safe_load(text)
+    return {key: value for key, value in content.items() if key not in changes}
+
+
+def _stated(changes: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in changes.items() if value is not None}
+
+
+def changed_text(text: str, changes: Mapping[str, Any], comment: str = '') -> str:
+    """
+    Return the text of a YAML file with some of its keys changed, and all else as it stands.
+
+    Parameters
+    ----------
+    text
+        The file; a mapping, in block or flow style, with any line ends.
+    changes
+        New values by key of the mapping; None takes a key out.
+    comment
+        One line above the first of them; such a line of an earlier change is taken out.
+
+    Returns
+    -------
+    str
+        The new text, with the same line ends.
+
+    """
+    ends = '\r\n' if '\r\n' in text else '\n'
+    lines = text.replace('\r\n', '\n').splitlines(keepends=True)
+    old = _APPLIED if comment else _KEPT
+    before = ''.join(line for line in lines if not line.startswith(old))
+    engine = _engine(before)
+    content = engine.load(before)
+    as_it_was = _dumped(engine, content)
+    for key, value in changes.items():
+        if value is None:
+            content.pop(key, None)
+        else:
+            content[key] = _plain(value)
+    after = _merged(before, as_it_was, _dumped(engine, content))
+    if comment:
+        after = _with_comment(after, f'# {comment}\n', next(iter(_stated(changes))))
+    return after.replace('\n', ends)
+
+
+def _engine(text: str) -> YAML:
+    """Return a reader and writer that keeps quotes, line lengths and the indent of a text."""
+    _, indent, offset = load_yaml_guess_indent(text)
+    engine = YAML()
+    engine.preserve_quotes = True
+    engine.width = 1 << 20
+    engine.explicit_start = text.startswith('---') or '\n---' in text
+    if indent is not None:
+        engine.indent(mapping=2, sequence=indent, offset=offset)
+    return engine
+
+
+def _dumped(engine: YAML, content: Any) -> str:
+    stream = StringIO()
+    engine.dump(content, stream)
+    return stream.getvalue()
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as both YAML 1.1 and 1.2 read it: 1e-05 is a text in the former."""
+    if isinstance(value, dict):
+        return CommentedMap({key: _plain(each) for key, each in value.items()})
+    if isinstance(value, float):
+        digits = np.format_float_positional(value, trim='0')
+        whole = digits.index('.')
+        return ScalarFloat(value, width=len(digits), prec=whole, m_sign=False, m_lead0=0)
+    return value
+
+
+def _merged(original: str, as_it_was: str, after: str) -> str:
+    """
+    Return ``after`` with every line that did not change as it stands in ``original``.
+
+    ``as_it_was`` is ``original`` as the library writes it. Comments that stood beside something
+    that was taken out stay.
+    """
+    old, same, new = (text.splitlines() for text in (original, as_it_was, after))
+    written: list[list[str]] = [[] for _ in range(len(same) + 1)]
+    for _, a, b, c, d in difflib.SequenceMatcher(None, old, same, False).get_opcodes():
+        if b - a == d - c:
+            for k in range(b - a):
+                written[c + k].append(old[a + k])
+        else:  # wrapped in another way: all of it with the first line
+            written[c] += old[a:b]
+    lines: list[str] = []
+    for kind, a, b, c, d in difflib.SequenceMatcher(None, same, new, False).get_opcodes():
+        if kind == 'equal':
+            lines += [line for group in written[a:b] for line in group]
+            continue
+        lost = [line for line in same[a:b] if line not in new[c:d]]
+        lines += [*new[c:d], *(line for line in lost if line.lstrip()[:1] in ('', '#'))]
+    lines += written[-1]
+    return ''.join(f'{line}\n' for line in lines)
+
+
+def _with_comment(text: str, comment: str, key: str) -> str:
+    """Return the text with a comment above a key, or at the top where keys share one line."""
+    lines = text.splitlines(keepends=True)
+    for number, line in enumerate(lines):
+        if line.lstrip('\'"').startswith(key):
+            return ''.join([*lines[:number], comment, *lines[number:]])
+    return comment + text
