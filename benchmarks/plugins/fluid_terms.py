@@ -18,6 +18,7 @@ import numpy as np
 from benchmarks.common import arguments, write
 from fluid_sim_ros.physics import added_mass, drag, inertia_box, kappa, lift, projection
 from fluid_sim_ros.physics.arrays import Array
+from test.support import printed_formulas
 
 CASES = 2000
 QUICK_CASES = 200
@@ -138,8 +139,8 @@ def ellipsoid_case(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
     yield 'viscous_torque', error(ours[1], torque)
 
 
-def seed_text_case(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
-    """Yield how far the formulas printed in the seed's text are from the engine, one body."""
+def printed_case(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
+    """Yield how far the formulas as printed are from the engine, one body."""
     axes = 10 ** rng.uniform(-2, -1) * 10 ** rng.uniform(0, 1, size=3)
     model = mujoco.MjModel.from_xml_string(ELLIPSOID.format(size=text(axes)))
     data = mujoco.MjData(model)
@@ -150,15 +151,19 @@ def seed_text_case(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
     data.qvel[:3] = model.opt.wind  # no flow: the gyroscopic torque alone
     model.geom_fluid[0, 1:6] = 0
     torque = engine(model, data, 1.0, 0.0)[1]
-    printed = added_mass.added_mass_coriolis_seed_text(*inertia_a, np.zeros(3), omega)[1]
+    printed = printed_formulas.added_mass_coriolis_as_printed(*inertia_a, np.zeros(3), omega)[1]
     yield 'added_mass_torque_general_form', error(printed, torque)
 
     data.qvel[:3] = data.xmat[1].reshape(3, 3) @ v + model.opt.wind
     model.geom_fluid[0, 1:] = [0.5, 0.25, 1.5, 0, 0, *np.zeros(6)]
     force, torque = engine(model, data, 1.0, 0.0)
-    printed = drag.blunt_slender_drag_seed_text(axes, v, density=1.0, c_blunt=0.5, c_slender=0.25)
+    printed = printed_formulas.blunt_slender_drag_as_printed(
+        axes, v, density=1.0, c_blunt=0.5, c_slender=0.25
+    )
     yield 'drag_maximal_area', error(printed, force)
-    printed = drag.angular_drag_seed_text(axes, omega, density=1.0, c_angular=1.5, c_slender=0.25)
+    printed = printed_formulas.angular_drag_as_printed(
+        axes, omega, density=1.0, c_angular=1.5, c_slender=0.25
+    )
     yield 'angular_drag_dot_product', error(printed, torque)
     yield 'angular_drag_power_is_positive', float(printed @ omega > 0)
 
@@ -221,22 +226,22 @@ def main() -> None:
         }
         for term, values in errors.items()
     }
-    seed_text = measure(cases, (seed_text_case,))
+    printed = measure(cases, (printed_case,))
     result = {
         'what': 'relative error of physics/ against qfrc_fluid, per term',
         'numpy': np.__version__,
         'cases_per_term': cases,
         'terms': terms,
-        'seed_text_against_engine': {
+        'printed_against_engine': {
             name: {'mean': float(values.mean()), 'median': float(np.median(values))}
-            for name, values in seed_text.items()
+            for name, values in printed.items()
         },
     }
     write(options.json, result)
     for term, row in terms.items():
         verdict = 'ok' if row['passed'] else 'ABOVE LIMIT'
         print(f'{term:24} median {row["median"]:.1e}  max {row["max"]:.1e}  {verdict}')
-    for name, values in seed_text.items():
+    for name, values in printed.items():
         print(f'seed text, {name:32} mean {values.mean():.3g}  median {np.median(values):.3g}')
     if not all(row['passed'] for row in terms.values()):
         raise SystemExit('a term is above its limit')

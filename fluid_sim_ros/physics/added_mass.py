@@ -61,21 +61,6 @@ def ellipsoid_added_mass_wrench(
     return force, torque
 
 
-def added_mass_coriolis_seed_text(
-    mass_a_b: ArrayLike, inertia_a_b: ArrayLike, v_rel_b: ArrayLike, omega_b: ArrayLike
-) -> Wrench:
-    """
-    Return the velocity part with the seed's general form, torque + w x dT/dw.
-
-    The last term has the wrong sign against the compact form, the engine and Euler's equations;
-    still workless, so energy does not show it: the angular impulse does. For comparison only.
-    """
-    m_a, i_a = vectors(mass_a_b, 'mass_a_b'), vectors(inertia_a_b, 'inertia_a_b')
-    v, omega = vectors(v_rel_b, 'v_rel_b'), vectors(omega_b, 'omega_b')
-    momentum = m_a * v
-    return np.cross(momentum, omega), np.cross(momentum, v) + np.cross(omega, i_a * omega)
-
-
 def matrix6(values: ArrayLike, name: str) -> Array:
     """
     Return a 6x6 matrix from 6, 21 or 36 numbers, or raise a `ConfigError`.

@@ -18,9 +18,8 @@ from fluid_sim_ros.physics.arrays import (
 from fluid_sim_ros.physics.inertia_box import sphere_resistance
 from fluid_sim_ros.physics.projection import (
     max_projected_area,
-    max_projected_area_seed_text,
     projected_area,
-    projected_area_seed,
+    projected_area_mujoco,
 )
 
 Area = Literal['lemma', 'true']
@@ -30,7 +29,7 @@ def drag_area(axes: ArrayLike, v_rel_b: Array, area: Area) -> Array:
     """Return the projected area that the drag uses [m^2], shape (...)."""
     match area:
         case 'lemma':
-            return projected_area_seed(axes, v_rel_b)
+            return projected_area_mujoco(axes, v_rel_b)
         case 'true':
             return projected_area(axes, v_rel_b)
     raise ConfigError(f"area: '{area}'; allowed: 'lemma', 'true'")
@@ -63,7 +62,7 @@ def blunt_slender_drag(
     c_blunt, c_slender
         Coefficients [-], shape (...); MuJoCo's defaults are 0.5 and 0.25.
     area
-        ``lemma``: the seed's and the engine's area; ``true``: the true projected area.
+        ``lemma``: the engine's area; ``true``: the true projected area.
 
     Returns
     -------
@@ -79,28 +78,6 @@ def blunt_slender_drag(
     return -column(rho * reference) * norm(v) * v
 
 
-def blunt_slender_drag_seed_text(
-    axes: ArrayLike,
-    v_rel_b: ArrayLike,
-    *,
-    density: ArrayLike,
-    c_blunt: ArrayLike,
-    c_slender: ArrayLike,
-) -> Array:
-    """
-    Return the drag with A_max = 4 pi r_max r_min of the seed's older text.
-
-    Differs from the engine whenever 4 r_min != r_mid; can push a thin plate along its motion
-    (A_max < A). For comparison only; arguments as in `blunt_slender_drag`.
-    """
-    v = vectors(v_rel_b, 'v_rel_b')
-    shadow = projected_area_seed(axes, v)
-    reference = np.asarray(c_blunt) * shadow + np.asarray(c_slender) * (
-        max_projected_area_seed_text(axes) - shadow
-    )
-    return -column(not_negative(density, 'density [kg/m^3]') * reference) * norm(v) * v
-
-
 def swept_inertia(axes: ArrayLike) -> Array:
     """
     Return I_D,i = 8 pi/15 r_i max(r_j, r_k)^4 [m^5], shape (..., 3).
@@ -114,7 +91,7 @@ def swept_inertia(axes: ArrayLike) -> Array:
     return moment
 
 
-def _angular_moment(axes: ArrayLike, c_angular: ArrayLike, c_slender: ArrayLike) -> Array:
+def angular_moment(axes: ArrayLike, c_angular: ArrayLike, c_slender: ArrayLike) -> Array:
     """Return C_angular I_D + C_slender (I_max - I_D) [m^5], shape (..., 3)."""
     swept = swept_inertia(axes)
     # The largest entry is 8 pi/15 r_mid r_max^4, the engine's I_max.
@@ -155,28 +132,7 @@ def angular_drag(
     """
     omega = vectors(omega_b, 'omega_b')
     rho = column(not_negative(density, 'density [kg/m^3]'))
-    return -rho * norm(_angular_moment(axes, c_angular, c_slender) * omega) * omega
-
-
-def angular_drag_seed_text(
-    axes: ArrayLike,
-    omega_b: ArrayLike,
-    *,
-    density: ArrayLike,
-    c_angular: ArrayLike,
-    c_slender: ArrayLike,
-) -> Array:
-    """
-    Return the torque -rho w (mom . w) as the seed prints it.
-
-    Even in w, so it feeds energy wherever mom . w < 0: half of all directions. For comparison
-    only; arguments as in `angular_drag`.
-    """
-    omega = vectors(omega_b, 'omega_b')
-    moment = _angular_moment(axes, c_angular, c_slender)
-    rho = column(not_negative(density, 'density [kg/m^3]'))
-    torque: Array = -rho * np.sum(moment * omega, axis=-1, keepdims=True) * omega
-    return torque
+    return -rho * norm(angular_moment(axes, c_angular, c_slender) * omega) * omega
 
 
 def viscous_resistance(

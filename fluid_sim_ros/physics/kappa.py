@@ -125,21 +125,3 @@ def ellipsoid_added_mass(axes: ArrayLike, density: ArrayLike) -> tuple[Array, Ar
     difference = (r_j - r_k) * (r_j + r_k)
     inertia = displaced / 5.0 * difference**2 * divided / (k + 2.0 * moment)
     return mass, inertia
-
-
-def added_inertia_seed_text(axes: ArrayLike, density: ArrayLike) -> Array:
-    """
-    Return the added moments of inertia by the quotient as the seed prints it.
-
-    The same number as `ellipsoid_added_mass` where no two axes are close, wrong by cancellation
-    where they are; equal axes are set to 0 as the limit demands. For comparison only.
-    """
-    r = positive_vectors(axes, 'semi-axes [m]')
-    displaced = column(not_negative(density, 'density [kg/m^3]') * ellipsoid_volume(r))
-    k = kappa(r)
-    j2, k2 = np.roll(r, -1, axis=-1) ** 2, np.roll(r, -2, axis=-1) ** 2
-    k_j, k_k = np.roll(k, -1, axis=-1), np.roll(k, -2, axis=-1)
-    upper = (j2 - k2) ** 2 * (k_k - k_j)
-    lower = 2.0 * (j2 - k2) + (j2 + k2) * (k_j - k_k)
-    quotient: Array = displaced / 5.0 * upper / np.where(lower == 0, 1.0, lower)
-    return quotient

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fluid_sim_ros.physics.arrays import Array, column, norm, not_negative, unit_or_zero, vectors
+from fluid_sim_ros.physics.arrays import Array, column, not_negative, unit_or_zero, vectors
 from fluid_sim_ros.physics.kappa import ellipsoid_volume
-from fluid_sim_ros.physics.projection import projected_area_seed, section_normal
+from fluid_sim_ros.physics.projection import projected_area_mujoco, section_normal
 
 
 def magnus_force(
@@ -75,23 +75,5 @@ def kutta_force(
     normal = section_normal(axes, v)
     cosine = np.sum(unit_or_zero(v) * normal, axis=-1)
     rho = not_negative(density, 'density [kg/m^3]')
-    factor = column(np.asarray(c_kutta) * rho * projected_area_seed(axes, v) * cosine)
+    factor = column(np.asarray(c_kutta) * rho * projected_area_mujoco(axes, v) * cosine)
     return factor * np.cross(np.cross(normal, v), v)
-
-
-def kutta_force_decomposed(
-    axes: ArrayLike, v_rel_b: ArrayLike, *, density: ArrayLike, c_kutta: ArrayLike
-) -> Array:
-    """
-    Return the same lift by the seed's first form, C_K rho A / |v| (v x v_par) x v.
-
-    v_par = v - (v . n^) n^ is the part of the velocity in the section's plane. Equal to
-    `kutta_force` by algebra; kept as its check.
-    """
-    v = vectors(v_rel_b, 'v_rel_b')
-    normal = section_normal(axes, v)
-    along = v - np.sum(v * normal, axis=-1, keepdims=True) * normal
-    speed = norm(v)
-    rho = not_negative(density, 'density [kg/m^3]')
-    factor = column(np.asarray(c_kutta) * rho * projected_area_seed(axes, v))
-    return factor / np.where(speed > 0, speed, 1.0) * np.cross(np.cross(v, along), v)

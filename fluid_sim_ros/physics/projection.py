@@ -1,5 +1,5 @@
 """
-Projected areas of an ellipsoid: the seed's lemma and the true one.
+Projected areas of an ellipsoid: MuJoCo's lemma and the true one.
 
 The lemma of MuJoCo's chapter "Fluid forces" is the area of the central section whose rim casts the
 shadow along u; its normal n^ ~ a_i^2 u_i, a_i = r_j r_k, is not along u. The shadow is that area
@@ -44,9 +44,9 @@ def projected_area(axes: ArrayLike, direction_b: ArrayLike) -> Array:
     return area
 
 
-def projected_area_seed(axes: ArrayLike, direction_b: ArrayLike) -> Array:
+def projected_area_mujoco(axes: ArrayLike, direction_b: ArrayLike) -> Array:
     """
-    Return the area given by the seed's lemma (also the engine's drag and Kutta area).
+    Return the area given by MuJoCo's lemma: the engine's area for drag and Kutta lift.
 
     A = pi sqrt(sum a_i^4 u_i^2 / sum a_i^2 u_i^2), a_i = r_j r_k; MuJoCo, "Ellipsoid projection".
     Never below the true area, and equal to it along the axes. A zero direction has area 0.
@@ -65,17 +65,6 @@ def projected_area_seed(axes: ArrayLike, direction_b: ArrayLike) -> Array:
 def max_projected_area(axes: ArrayLike) -> Array:
     """Return A_max = pi r_max r_mid [m^2], shape (...), as the engine has it."""
     area: Array = np.pi * principal_areas(axes).max(axis=-1)
-    return area
-
-
-def max_projected_area_seed_text(axes: ArrayLike) -> Array:
-    """
-    Return 4 pi r_max r_min [m^2], shape (...): what the seed's older text calls A_max.
-
-    Not a projected area (a sphere has pi r^2); the engine uses `max_projected_area`.
-    """
-    r = positive_vectors(axes, 'semi-axes [m]')
-    area: Array = 4.0 * np.pi * r.max(axis=-1) * r.min(axis=-1)
     return area
 
 

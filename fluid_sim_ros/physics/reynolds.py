@@ -117,7 +117,7 @@ def blunt_coefficient(reynolds: ArrayLike) -> Array:
     Return C_blunt(Re) = (Cd(Re) - 24/Re)/2 [-], the coefficient to use beside the Stokes term.
 
     The part 24/Re of the curve is the Stokes resistance, which `viscous_resistance` applies; the
-    half is because the seed's drag has no 1/2. Cd of Brown and Lawler; Re > 0, shape (...).
+    half is because MuJoCo's drag has no 1/2. Cd of Brown and Lawler; Re > 0, shape (...).
     """
     re = positive(reynolds, 'Re')
     coefficient: Array = 0.5 * (3.6 * re**-0.319 + 0.407 * re / (re + 8710.0))

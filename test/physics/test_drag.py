@@ -5,12 +5,11 @@ from hypothesis import given
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.drag import (
     angular_drag,
-    angular_drag_seed_text,
     blunt_slender_drag,
-    blunt_slender_drag_seed_text,
     swept_inertia,
     viscous_resistance,
 )
+from test.support.printed_formulas import angular_drag_as_printed, blunt_slender_drag_as_printed
 from test.support.strategies import CYCLE, FLIPS, axes, floats, vectors
 
 COEF = {'density': 1000.0, 'c_blunt': 0.5, 'c_slender': 0.25}
@@ -50,24 +49,24 @@ def test_angular_drag_dissipates_and_is_odd(r, omega, c_angular, c_slender):
     assert np.array_equal(angular_drag(r, -omega, **kind), -torque)
 
 
-def test_seed_text_of_angular_drag_feeds_energy_in_half_of_the_samples(rng):
+def test_printed_angular_drag_feeds_energy_in_half_of_the_samples(rng):
     r, omega = rng.uniform(0.1, 1, (4000, 3)), rng.normal(size=(4000, 3))
-    power = np.sum(angular_drag_seed_text(r, omega, **SPIN) * omega, axis=-1)
+    power = np.sum(angular_drag_as_printed(r, omega, **SPIN) * omega, axis=-1)
     assert 0.45 < (power > 0).mean() < 0.55
     assert (np.sum(angular_drag(r, omega, **SPIN) * omega, axis=-1) <= 0).all()
 
 
-def test_seed_text_of_maximal_area_differs_and_can_push():
+def test_printed_maximal_area_differs_and_can_push():
     sphere = [0.1] * 3
     v = np.array([1.0, 0, 0])
     engine, printed = (
         blunt_slender_drag(sphere, v, **COEF),
-        blunt_slender_drag_seed_text(sphere, v, **COEF),
+        blunt_slender_drag_as_printed(sphere, v, **COEF),
     )
     assert printed[0] / engine[0] == pytest.approx(2.5, rel=1e-13)  # (.5 + .25 (4 - 1)) / .5
     slender_only = {'density': 1.0, 'c_blunt': 0.0, 'c_slender': 1.0}
     plate, broadside = [1.0, 1.0, 0.01], np.array([0, 0, 1.0])
-    assert blunt_slender_drag_seed_text(plate, broadside, **slender_only)[2] > 0
+    assert blunt_slender_drag_as_printed(plate, broadside, **slender_only)[2] > 0
     assert blunt_slender_drag(plate, broadside, **slender_only)[2] == 0
 
 

@@ -2,12 +2,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from fluid_sim_ros.physics.added_mass import (
-    added_mass_coriolis_seed_text,
-    ellipsoid_added_mass_wrench,
-)
+from fluid_sim_ros.physics.added_mass import ellipsoid_added_mass_wrench
 from fluid_sim_ros.physics.ellipsoid import FluidCoef, ellipsoid_wrench
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass
+from test.support.printed_formulas import added_mass_coriolis_as_printed
 from test.support.strategies import CYCLE, axes, vectors
 
 WATER = {'density': 1000.0, 'viscosity': 9e-4}
@@ -119,10 +117,10 @@ def test_general_form_is_the_compact_form():
     assert torque == pytest.approx(expected, rel=1e-10)
 
 
-def test_seed_text_of_the_general_form_flips_the_gyroscopic_torque():
+def test_printed_general_form_flips_the_gyroscopic_torque():
     inertia, omega = np.array([1.0, 2, 3]), np.array([1.0, 1, 1])
     right = ellipsoid_added_mass_wrench(np.ones(3), inertia, np.zeros(3), omega)[1]
-    printed = added_mass_coriolis_seed_text(np.ones(3), inertia, np.zeros(3), omega)[1]
+    printed = added_mass_coriolis_as_printed(np.ones(3), inertia, np.zeros(3), omega)[1]
     assert printed == pytest.approx(-right) and right.any()
     # Workless all the same: energy alone does not find the error.
     assert printed @ omega == pytest.approx(0, abs=1e-15)

@@ -1,4 +1,4 @@
-"""Each numpy term on its own against stock MuJoCo, and the places where the seed's text is off."""
+"""Each numpy term on its own against stock MuJoCo, and how far the printed formulas are off."""
 
 import mujoco
 import numpy as np
@@ -7,6 +7,7 @@ import pytest
 from benchmarks.plugins import fluid_terms
 from fluid_sim_ros.physics import added_mass, drag, kappa, lift
 from fluid_sim_ros.physics.ellipsoid import FluidCoef, ellipsoid_wrench
+from test.support import printed_formulas
 
 
 @pytest.fixture(scope='module')
@@ -121,7 +122,7 @@ def test_difference_1_maximal_area(fast_spin):
     force = fluid_terms.engine(model, data, 1.0, 0.0)[0]
     kind = {'density': 1.0, 'c_blunt': 0.0, 'c_slender': 1.0}
     assert drag.blunt_slender_drag(axes, data.qvel[:3], **kind) == pytest.approx(force, rel=1e-12)
-    printed = drag.blunt_slender_drag_seed_text(axes, data.qvel[:3], **kind)
+    printed = printed_formulas.blunt_slender_drag_as_printed(axes, data.qvel[:3], **kind)
     assert np.linalg.norm(printed - force) > 0.5 * np.linalg.norm(force)
 
 
@@ -131,7 +132,7 @@ def test_difference_2_angular_drag(fast_spin):
     torque = fluid_terms.engine(model, data, 1.0, 0.0)[1]
     kind = {'density': 1.0, 'c_angular': 1.0, 'c_slender': 0.0}
     assert drag.angular_drag(axes, data.qvel[3:], **kind) == pytest.approx(torque, rel=1e-12)
-    printed = drag.angular_drag_seed_text(axes, data.qvel[3:], **kind)
+    printed = printed_formulas.angular_drag_as_printed(axes, data.qvel[3:], **kind)
     assert torque @ data.qvel[3:] < 0 < printed @ data.qvel[3:]
 
 
@@ -143,7 +144,7 @@ def test_difference_3_general_form_of_the_added_torque(fast_spin):
     a = kappa.ellipsoid_added_mass(axes, 1.0)
     zero = np.zeros(3)
     ours = added_mass.ellipsoid_added_mass_wrench(*a, zero, data.qvel[3:])[1]
-    printed = added_mass.added_mass_coriolis_seed_text(*a, zero, data.qvel[3:])[1]
+    printed = printed_formulas.added_mass_coriolis_as_printed(*a, zero, data.qvel[3:])[1]
     assert ours == pytest.approx(torque, rel=1e-5)
     assert printed == pytest.approx(-torque, rel=1e-5)
 
@@ -197,8 +198,8 @@ def test_engine_quadrature_of_kappa_degrades_with_aspect_ratio():
     assert errors[0] < 1e-6 < 1e-4 < errors[1] < 1e-3 < 0.1 < errors[2] < 0.15
 
 
-def test_seed_text_is_off_over_random_bodies():
-    found = fluid_terms.measure(100, (fluid_terms.seed_text_case,))
+def test_printed_formulas_are_off_over_random_bodies():
+    found = fluid_terms.measure(100, (fluid_terms.printed_case,))
     assert found['added_mass_torque_general_form'] == pytest.approx(np.full(100, 2.0), abs=1e-3)
     assert np.median(found['drag_maximal_area']) > 0.1
     assert 0.3 < found['angular_drag_power_is_positive'].mean() < 0.7

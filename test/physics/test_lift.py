@@ -3,7 +3,8 @@ import pytest
 from hypothesis import given
 
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
-from fluid_sim_ros.physics.lift import kutta_force, kutta_force_decomposed, magnus_force
+from fluid_sim_ros.physics.lift import kutta_force, magnus_force
+from test.support.printed_formulas import kutta_force_as_printed
 from test.support.strategies import CYCLE, FLIPS, axes, floats, vectors
 
 ONE = {'density': 1.0, 'c_kutta': 1.0}
@@ -38,7 +39,7 @@ def test_net_spin_force_of_a_sphere_is_magnus_less_half():
 
 @given(axes(), vectors())
 def test_both_forms_of_the_kutta_force(r, v):
-    direct, decomposed = kutta_force(r, v, **ONE), kutta_force_decomposed(r, v, **ONE)
+    direct, decomposed = kutta_force(r, v, **ONE), kutta_force_as_printed(r, v, **ONE)
     scale = np.pi * r.max() ** 2 * (v @ v) + 1e-300
     assert np.abs(direct - decomposed).max() <= 1e-13 * scale
 

@@ -4,18 +4,18 @@ from hypothesis import given
 
 from fluid_sim_ros.physics.projection import (
     max_projected_area,
-    max_projected_area_seed_text,
     projected_area,
-    projected_area_seed,
+    projected_area_mujoco,
     section_normal,
 )
+from test.support.printed_formulas import max_projected_area_as_printed
 from test.support.strategies import CYCLE, axes, vectors
 
 
 @given(axes(), vectors())
 def test_shadow_is_the_section_seen_from_the_flow(r, v):
     speed = np.linalg.norm(v)
-    seen = projected_area_seed(r, v) * (section_normal(r, v) @ v)
+    seen = projected_area_mujoco(r, v) * (section_normal(r, v) @ v)
     assert projected_area(r, v) * speed == pytest.approx(seen, rel=1e-12, abs=1e-15)
 
 
@@ -24,7 +24,7 @@ def test_both_areas_agree_along_the_axes(r):
     for i in range(3):
         expected = np.pi * np.roll(r, -1)[i] * np.roll(r, -2)[i]
         assert projected_area(r, np.eye(3)[i]) == pytest.approx(expected, rel=1e-13)
-        assert projected_area_seed(r, np.eye(3)[i]) == pytest.approx(expected, rel=1e-13)
+        assert projected_area_mujoco(r, np.eye(3)[i]) == pytest.approx(expected, rel=1e-13)
 
 
 def test_true_area_is_the_silhouette():
@@ -51,21 +51,23 @@ def test_true_area_by_counting_rays():
 def test_lemma_is_too_large():
     one_degree = np.array([np.cos(np.pi / 180), 0.0, np.sin(np.pi / 180)])
     disc = np.array([1.0, 1.0, 0.01])
-    assert projected_area_seed(disc, one_degree) / projected_area(disc, one_degree) > 40
-    ratio = projected_area_seed([3.0, 2, 1], np.ones(3)) / projected_area([3.0, 2, 1], np.ones(3))
+    assert projected_area_mujoco(disc, one_degree) / projected_area(disc, one_degree) > 40
+    ratio = projected_area_mujoco([3.0, 2, 1], np.ones(3)) / projected_area(
+        [3.0, 2, 1], np.ones(3)
+    )
     assert ratio == pytest.approx(1.3, abs=0.05)
 
 
 @given(axes(), vectors())
 def test_lemma_is_between_true_area_and_maximum(r, v):
-    true, lemma = projected_area(r, v), projected_area_seed(r, v)
+    true, lemma = projected_area(r, v), projected_area_mujoco(r, v)
     assert true <= lemma * (1 + 1e-12)
     assert lemma <= max_projected_area(r) * (1 + 1e-12)
 
 
 @given(axes(), vectors())
 def test_even_scale_free_and_relabelled(r, v):
-    for area in (projected_area, projected_area_seed):
+    for area in (projected_area, projected_area_mujoco):
         assert area(r, -v) == area(r, v)
         assert area(r, 3 * v) == pytest.approx(area(r, v), rel=1e-13)
         assert area(CYCLE @ r, CYCLE @ v) == pytest.approx(area(r, v), rel=1e-13)
@@ -73,15 +75,15 @@ def test_even_scale_free_and_relabelled(r, v):
 
 def test_no_direction_has_no_area():
     assert projected_area([1.0, 2, 3], np.zeros(3)) == 0
-    assert projected_area_seed([1.0, 2, 3], np.zeros(3)) == 0
+    assert projected_area_mujoco([1.0, 2, 3], np.zeros(3)) == 0
     assert not section_normal([1.0, 2, 3], np.zeros(3)).any()
 
 
 def test_printed_maximum_is_no_projected_area():
     assert max_projected_area([1.0, 1, 1]) == pytest.approx(np.pi, rel=1e-15)
-    assert max_projected_area_seed_text([1.0, 1, 1]) == pytest.approx(4 * np.pi, rel=1e-15)
+    assert max_projected_area_as_printed([1.0, 1, 1]) == pytest.approx(4 * np.pi, rel=1e-15)
     plate = [1.0, 1.0, 0.01]
-    assert max_projected_area_seed_text(plate) < 0.05 * max_projected_area(plate)
+    assert max_projected_area_as_printed(plate) < 0.05 * max_projected_area(plate)
 
 
 def test_section_normal_is_the_seed_vector():
@@ -93,5 +95,5 @@ def test_section_normal_is_the_seed_vector():
 def test_tiny_bodies_do_not_underflow():
     small = 1e-9 * np.array([3.0, 2, 1])
     v = np.array([1e-9, 2e-9, -1e-9])
-    large = projected_area_seed([3.0, 2, 1], v)
-    assert projected_area_seed(small, v) == pytest.approx(1e-18 * large, rel=1e-12)
+    large = projected_area_mujoco([3.0, 2, 1], v)
+    assert projected_area_mujoco(small, v) == pytest.approx(1e-18 * large, rel=1e-12)

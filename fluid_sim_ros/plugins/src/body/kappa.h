@@ -13,7 +13,7 @@ double CarlsonRd(double x, double y, double z);
 
 // Added masses [m^3] and moments of inertia [m^5] per unit density along the axes of an ellipsoid
 // with semi-axes r [m]: m_i = V k_i/(k_j + k_k), I_i = V/5 (r_j^2 - r_k^2)^2 D_i/(k_i + 2 E_i),
-// a form of the seed's quotient that does not cancel for equal axes.
+// a form of Tuckerman's quotient that does not cancel for equal axes.
 void EllipsoidAddedMass(const mjtNum r[3], mjtNum mass[3], mjtNum inertia[3]);
 
 }  // namespace fluid_sim
