@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from fluid_sim_ros.lab.problems.problem import (
     OMEGA,
@@ -35,12 +36,13 @@ def attitude_error(states: Array, reference: Array) -> Array:
 
     2 atan2(|q_v|, |q_w|) of q_ref^-1 q: no floor at 1e-8, as the trace of the matrix has.
     """
-    q, r = states[..., QUATERNION], reference[..., QUATERNION]
-    real = np.sum(q * r, axis=-1)
-    # vector part of q_ref^-1 q
-    vector = r[..., :1] * q[..., 1:] - q[..., :1] * r[..., 1:] - np.cross(r[..., 1:], q[..., 1:])
-    angle = 2 * np.arctan2(np.linalg.norm(vector, axis=-1), np.abs(real))
-    return np.asarray(angle.max(axis=-1))
+    q, r = np.broadcast_arrays(states[..., QUATERNION], reference[..., QUATERNION])
+    turn = _rotation(r).inv() * _rotation(q)
+    return np.asarray(turn.magnitude().reshape(q.shape[:-1]).max(axis=-1))
+
+
+def _rotation(quat_wxyz: Array) -> Rotation:
+    return Rotation.from_quat(np.roll(quat_wxyz.reshape(-1, 4), -1, axis=1))
 
 
 def drift(values: Array) -> Array:

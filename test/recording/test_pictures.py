@@ -115,3 +115,20 @@ def test_parquet_holds_the_same(log, tmp_path):
     expected = columns(opened.topic('/x500/wrench/total').definition, data)
     for name, values in expected.items():
         assert table[name].to_pylist() == values.tolist()
+
+
+def test_euler_angles_are_exact_near_zero_and_go_on_beyond_half_a_turn():
+    def euler(*quats):
+        wxyz, none = np.array(quats, dtype=float), np.zeros((len(quats), 3))
+        return Track('a', np.arange(len(quats)), none, wxyz, none, none).euler
+
+    for angle in (0.0, 1e-15, 1e-9, 0.3, np.pi / 2):
+        for axis in range(3):
+            quat = np.r_[np.cos(angle / 2), np.sin(angle / 2) * np.eye(3)[axis]]
+            np.testing.assert_allclose(euler(quat)[0], angle * np.eye(3)[axis], atol=3e-16)
+    turns = np.linspace(0, 4 * np.pi, 50)
+    quats = np.column_stack([np.cos(turns / 2), 0 * turns, 0 * turns, np.sin(turns / 2)])
+    np.testing.assert_allclose(euler(*quats)[:, 2], turns, atol=1e-14)
+    lost = euler(quats[1], np.zeros(4), np.full(4, np.nan), quats[2])
+    assert np.isnan(lost[1:3]).all()
+    np.testing.assert_allclose(lost[[0, 3], 2], turns[1:3], atol=1e-15)

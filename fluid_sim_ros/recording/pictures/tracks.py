@@ -1,9 +1,11 @@
 """What the pictures of a log are drawn from: each vehicle's states as arrays."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.decode import columns
@@ -46,12 +48,20 @@ class Track:
 
     @property
     def euler(self) -> Array:
-        """Roll, pitch and yaw (z-y-x order, FLU against ENU) [rad], shape (n, 3)."""
-        w, x, y, z = self.quat_wb_wxyz.T
-        roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-        pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
-        yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-        return np.column_stack([np.unwrap(roll), pitch, np.unwrap(yaw)])
+        """
+        Roll, pitch and yaw (z-y-x order, FLU against ENU) [rad], shape (n, 3).
+
+        Roll and yaw go on beyond half a turn, without a jump; nan where there is no attitude.
+        """
+        xyzw = np.roll(self.quat_wb_wxyz, -1, axis=1)
+        there = np.linalg.norm(xyzw, axis=1) > 0  # not zeros (no attitude), not nan
+        angles = np.full((len(xyzw), 3), np.nan)
+        with warnings.catch_warnings():
+            # straight up or down only the sum of roll and yaw is known: all of it is yaw
+            warnings.filterwarnings('ignore', 'Gimbal lock')
+            yaw, pitch, roll = Rotation.from_quat(xyzw[there]).as_euler('ZYX').T
+        angles[there] = np.column_stack([np.unwrap(roll), pitch, np.unwrap(yaw)])
+        return angles
 
 
 @dataclass
