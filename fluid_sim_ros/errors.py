@@ -32,12 +32,14 @@ class DivergedError(FluidSimError):
     """
     The simulation left the range of finite numbers.
 
-    Attributes
+    Parameters
     ----------
+    message
+        One line: what diverged, where and when.
     time
-        Simulated time of the first bad step [s].
+        Simulated time of the first bad step [s]; kept as an attribute.
     body
-        Name of the body that holds the bad degree of freedom.
+        Name of the body that holds the bad degree of freedom; kept as an attribute.
 
     """
 
@@ -48,7 +50,15 @@ class DivergedError(FluidSimError):
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return names as the tail of an error message: ``a, b, c`` or ``(none)``."""
+    """
+    Return names as the tail of an error message: ``a, b, c`` or ``(none)``.
+
+    Parameters
+    ----------
+    names
+        What is allowed or exists, in the order of the message.
+
+    """
     return ', '.join(names) or '(none)'
 
 
@@ -56,6 +66,16 @@ def listed(names: Iterable[str]) -> str:
 def needed_for(what: str) -> Iterator[None]:
     """
     Say in one line what to do where a package is missing that ``what`` needs.
+
+    Parameters
+    ----------
+    what
+        Beginning of the message: who needs the package.
+
+    Returns
+    -------
+    context manager
+        In which the package is imported.
 
     Raises
     ------

@@ -11,13 +11,35 @@ NEVER = 1 << 62
 
 
 def exact(value: float | Fraction) -> Fraction:
-    """Return the decimal number that a person wrote, exactly (``0.002`` -> 1/500)."""
+    """
+    Return the decimal number that a person wrote, exactly (``0.002`` -> 1/500).
+
+    Parameters
+    ----------
+    value
+        A number as a person wrote it, any unit.
+
+    """
     return value if isinstance(value, Fraction) else Fraction(repr(float(value)))
 
 
 def whole_steps(seconds: float, timestep: float, what: str) -> int:
     """
     Return how many steps a duration takes.
+
+    Parameters
+    ----------
+    seconds
+        Duration [s].
+    timestep
+        [s].
+    what
+        Beginning of the error's message: which duration it is.
+
+    Returns
+    -------
+    int
+        Number of timesteps.
 
     Raises
     ------
@@ -37,6 +59,20 @@ def period_steps(rate_hz: float, timestep: float, what: str) -> int:
     """
     Return the number of steps between two outputs at a rate.
 
+    Parameters
+    ----------
+    rate_hz
+        [Hz].
+    timestep
+        [s].
+    what
+        Beginning of the error's message: which rate it is.
+
+    Returns
+    -------
+    int
+        Number of timesteps, 1 or more.
+
     Raises
     ------
     ConfigError
@@ -55,7 +91,22 @@ def period_steps(rate_hz: float, timestep: float, what: str) -> int:
 
 
 def duration_steps(seconds: float, timestep: float) -> int:
-    """Return the step at which a run of ``seconds`` ends; 0 s means never."""
+    """
+    Return the step at which a run of ``seconds`` ends; 0 s means never.
+
+    Parameters
+    ----------
+    seconds
+        Duration [s].
+    timestep
+        [s].
+
+    Raises
+    ------
+    ConfigError
+        If the duration is not a whole number of timesteps.
+
+    """
     return whole_steps(seconds, timestep, 'duration') if seconds else NEVER
 
 
@@ -91,7 +142,17 @@ class StepClock:
         self.load(Pace(self._tick_ns))
 
     def retime(self, step: int, timestep: Fraction) -> None:
-        """Have the steps from ``step`` on take ``timestep`` [s], not above a tick."""
+        """
+        Have the steps from ``step`` on take ``timestep`` [s], not above a tick.
+
+        Parameters
+        ----------
+        step
+            First step of the new length.
+        timestep
+            [s], exactly.
+
+        """
         begin_ns = Fraction(self._numerator(step), self._denominator)
         self.load(Pace(timestep * 1_000_000_000, step, begin_ns))
 
@@ -100,7 +161,15 @@ class StepClock:
         return self._pace
 
     def load(self, pace: Pace) -> None:
-        """Go on from a saved pace."""
+        """
+        Go on from a saved pace.
+
+        Parameters
+        ----------
+        pace
+            What ``save`` returned.
+
+        """
         self._pace = pace
         self.retimed = pace != Pace(self._tick_ns)
         # time [ns] = (base + (step - first) growth) / denominator, in whole numbers
@@ -116,22 +185,54 @@ class StepClock:
         return float(self._pace.timestep_ns / 1_000_000_000)
 
     def time(self, step: int) -> float:
-        """Return the time of a step [s]."""
+        """
+        Return the time of a step [s].
+
+        Parameters
+        ----------
+        step
+            Number of steps since time 0.
+
+        """
         return self._numerator(step) / self._denominator * 1e-9
 
     def time_ns(self, step: int) -> int:
-        """Return the time of a step [ns], rounded once from the exact number."""
+        """
+        Return the time of a step [ns], rounded once from the exact number.
+
+        Parameters
+        ----------
+        step
+            Number of steps since time 0.
+
+        """
         return (self._numerator(step) + self._denominator // 2) // self._denominator
 
     def tick(self, step: int) -> int:
-        """Return the whole ticks that have passed at a step."""
+        """
+        Return the whole ticks that have passed at a step.
+
+        Parameters
+        ----------
+        step
+            Number of steps since time 0.
+
+        """
         if not self.retimed:
             return step
         tick = self._tick_ns
         return self._numerator(step) * tick.denominator // (self._denominator * tick.numerator)
 
     def tick_at(self, time_ns: int) -> int:
-        """Return the first tick at or after a time [ns]."""
+        """
+        Return the first tick at or after a time [ns].
+
+        Parameters
+        ----------
+        time_ns
+            Simulated time [ns].
+
+        """
         return math.ceil(time_ns / self._tick_ns)
 
     def _numerator(self, step: int) -> int:

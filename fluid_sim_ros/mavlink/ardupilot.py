@@ -129,7 +129,15 @@ class ArduPilotBridge(AutopilotLink):
     # ---- one frame -------------------------------------------------------------------------
 
     def state(self, time_ns: int) -> JsonState:
-        """Return what the autopilot gets to know of the present state."""
+        """
+        Return what the autopilot gets to know of the present state.
+
+        Parameters
+        ----------
+        time_ns
+            Time of the state by the autopilot's clock [ns].
+
+        """
         truth = self._truth.read(forces=True)
         return JsonState(
             time_ns, truth.rates, truth.specific_force, truth.position_ned, truth.velocity_ned,

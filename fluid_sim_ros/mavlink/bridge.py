@@ -20,6 +20,20 @@ def open_bridge(
     """
     Listen for an autopilot.
 
+    Parameters
+    ----------
+    simulation
+        What the vehicle is in.
+    options
+        Protocol, vehicle, mapping, address and port; an empty vehicle means the only one.
+    surroundings
+        Where faults are reported, and what resets and logs.
+
+    Returns
+    -------
+    Bridge
+        Of the protocol, listening.
+
     Raises
     ------
     ConfigError

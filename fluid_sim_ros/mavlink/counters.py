@@ -49,7 +49,15 @@ class Counters:
     _answered_then: int = field(default=0, repr=False)
 
     def fault(self, line: str) -> None:
-        """Count something malformed and keep what it was."""
+        """
+        Count something malformed and keep what it was.
+
+        Parameters
+        ----------
+        line
+            What was wrong, in one line.
+
+        """
         self.malformed += 1
         self.last_fault = line
 

@@ -108,7 +108,22 @@ class HilCodec:
     # ---- to the autopilot ------------------------------------------------------------------
 
     def sensors(self, time_us: int, readings: SensorReadings) -> bytes:
-        """Return HIL_SENSOR with the bits of the groups that are new."""
+        """
+        Return HIL_SENSOR with the bits of the groups that are new.
+
+        Parameters
+        ----------
+        time_us
+            Time of the readings by the autopilot's clock [us].
+        readings
+            In the units of the message: see ``SensorReadings``.
+
+        Returns
+        -------
+        bytes
+            One MAVLink frame.
+
+        """
         fields = ACCELEROMETER | GYRO
         field_frd, pressure = readings.magnetic_field, readings.pressure
         differential = readings.differential_pressure
@@ -140,7 +155,28 @@ class HilCodec:
         eph: int = 30,
         epv: int = 40,
     ) -> bytes:
-        """Return HIL_GPS of a 3D fix: [deg], [deg], [m above MSL], [m/s]; eph, epv [cm]."""
+        """
+        Return HIL_GPS of a 3D fix.
+
+        Parameters
+        ----------
+        time_us
+            Time of the fix by the autopilot's clock [us].
+        latitude, longitude
+            WGS 84 [deg].
+        altitude
+            Above mean sea level [m].
+        velocity_ned
+            Over ground, NED axes [m/s], three numbers.
+        eph, epv
+            Error of the horizontal and vertical position [cm], as PX4 reads these fields.
+
+        Returns
+        -------
+        bytes
+            One MAVLink frame.
+
+        """
         north, east, down = (_int16(100 * v) for v in velocity_ned)
         speed = min(round(100 * math.hypot(*velocity_ned[:2])), 65534)
         course = math.degrees(math.atan2(velocity_ned[1], velocity_ned[0])) % 360
@@ -165,9 +201,32 @@ class HilCodec:
         """
         Return HIL_STATE_QUATERNION, the true state for the autopilot's log.
 
-        Latitude, longitude [deg] and altitude [m]; [m/s] become cm/s, and [m/s^2] thousandths of
-        it, saturated at their 16 bits. (The message's definition says thousandths of g; PX4 reads
+        In the message [m/s] become cm/s, and [m/s^2] thousandths of it, saturated at their 16
+        bits. (The message's definition says thousandths of g; PX4 reads
         thousandths of m/s^2.)
+
+        Parameters
+        ----------
+        time_us
+            Time of the state by the autopilot's clock [us].
+        attitude
+            Rotation FRD to NED, scalar first, four numbers.
+        rates
+            Angular velocity, FRD axes [rad/s], three numbers.
+        geodetic
+            Latitude [deg], longitude [deg] and altitude above mean sea level [m].
+        velocity_ned
+            Over ground, NED axes [m/s], three numbers.
+        airspeed
+            Speed through the medium [m/s].
+        specific_force
+            FRD axes [m/s^2], three numbers.
+
+        Returns
+        -------
+        bytes
+            One MAVLink frame.
+
         """
         latitude, longitude, altitude = geodetic
         air = min(max(round(100 * airspeed), 0), 65535)
@@ -190,7 +249,32 @@ class HilCodec:
         pose_variance: Sequence[float],
         velocity_variance: Sequence[float],
     ) -> bytes:
-        """Return ODOMETRY as of a vision system; variances of six numbers each."""
+        """
+        Return ODOMETRY as of a vision system; variances of six numbers each.
+
+        Parameters
+        ----------
+        time_us
+            Time of the state by the autopilot's clock [us].
+        position_ned
+            From the world's origin, NED axes [m], three numbers.
+        attitude
+            Rotation FRD to NED, scalar first, four numbers.
+        velocity_frd
+            Over ground, FRD axes [m/s], three numbers.
+        rates
+            Angular velocity, FRD axes [rad/s], three numbers.
+        pose_variance
+            Of position [m^2] and attitude [rad^2], six numbers.
+        velocity_variance
+            Of velocity [m^2/s^2] and angular velocity [rad^2/s^2], six numbers.
+
+        Returns
+        -------
+        bytes
+            One MAVLink frame.
+
+        """
         return self._pack(
             dialect.MAVLink_odometry_message(
                 time_us, _LOCAL_NED, _BODY_FRD, *position_ned, list(attitude), *velocity_frd,
@@ -204,7 +288,22 @@ class HilCodec:
         return self._pack(dialect.MAVLink_heartbeat_message(_GCS, _NOT_AN_AUTOPILOT, 0, 0, 0, 3))
 
     def rc_channels(self, time_ms: int, channels: Sequence[int]) -> bytes:
-        """Return RC_CHANNELS: the sticks of a radio control, pulse widths [us], at most 18."""
+        """
+        Return RC_CHANNELS: the sticks of a radio control, pulse widths [us], at most 18.
+
+        Parameters
+        ----------
+        time_ms
+            Time by the autopilot's clock [ms].
+        channels
+            Pulse widths [us], at most 18.
+
+        Returns
+        -------
+        bytes
+            One MAVLink frame.
+
+        """
         pulses = [*channels, *[65535] * (18 - len(channels))]
         return self._pack(
             dialect.MAVLink_rc_channels_message(time_ms, len(channels), *pulses, 255)
@@ -213,7 +312,20 @@ class HilCodec:
     # ---- from the autopilot ----------------------------------------------------------------
 
     def receive(self, data: bytes) -> Received:
-        """Read a portion of the stream; an unfinished message waits for the next portion."""
+        """
+        Read a portion of the stream; an unfinished message waits for the next portion.
+
+        Parameters
+        ----------
+        data
+            Bytes as they came from the socket; they may begin and end inside a message.
+
+        Returns
+        -------
+        Received
+            Actuator outputs, the number of messages, and one line for each fault.
+
+        """
         received, mav = Received(), self._mav
         # most portions are one whole answer
         if not mav.buf and (fields := _ANSWER.read(data)) is not None:

@@ -80,7 +80,22 @@ class HilState:
         self._count = 0
 
     def messages(self, codec: HilCodec, now_us: int) -> bytes:
-        """Return the messages of the exchange at ``now_us``, the autopilot's time [us]."""
+        """
+        Return the messages of the exchange at ``now_us``, the autopilot's time [us].
+
+        Parameters
+        ----------
+        codec
+            Of the connection, which numbers the messages.
+        now_us
+            Time by the autopilot's clock [us].
+
+        Returns
+        -------
+        bytes
+            MAVLink frames, HIL_SENSOR last.
+
+        """
         self._suite.update()
         count, self._count = self._count, self._count + 1
         readings = self._readings()

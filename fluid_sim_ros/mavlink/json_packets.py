@@ -30,7 +30,20 @@ class ServoPacket:
 
 
 def read_servo_packet(data: bytes) -> ServoPacket | str:
-    """Return the packet that the bytes hold, or what is wrong with them."""
+    """
+    Return the packet that the bytes hold, or what is wrong with them.
+
+    Parameters
+    ----------
+    data
+        One datagram.
+
+    Returns
+    -------
+    ServoPacket or str
+        The packet, or one line that says what is wrong.
+
+    """
     if len(data) < _HEAD.size:
         return f'{len(data)} bytes are too short for a servo packet'
     magic, rate, count = _HEAD.unpack_from(data)
@@ -87,7 +100,20 @@ _STATE = (
 
 
 def write_state(state: JsonState) -> bytes:
-    """Return the reply that says a state."""
+    """
+    Return the reply that says a state.
+
+    Parameters
+    ----------
+    state
+        In the units and axes that ``JsonState`` states.
+
+    Returns
+    -------
+    bytes
+        One line of JSON.
+
+    """
     text = _STATE % (
         state.time_ns * 1e-9, *state.gyro, *state.specific_force, *state.position,
         *euler(state.attitude), *state.attitude, *state.velocity,

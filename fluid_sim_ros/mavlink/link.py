@@ -63,8 +63,64 @@ class AutopilotLink(ABC):
         self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
         self._outputs: Sequence[float] = ()
 
+    @abstractmethod
+    def begin(self, simulation: Simulation) -> None:
+        """
+        Go on from the simulation's present time, which a reset may have set back.
+
+        Parameters
+        ----------
+        simulation
+            The one that the bridge was made for.
+
+        """
+
+    @abstractmethod
+    def steps_left(self, simulation: Simulation) -> int:
+        """
+        Return the steps to the next exchange.
+
+        Parameters
+        ----------
+        simulation
+            The one that the bridge was made for, at a step boundary.
+
+        """
+
+    @abstractmethod
+    def meet(self, simulation: Simulation) -> bool:
+        """
+        Exchange state and commands where this boundary is one of an exchange.
+
+        Parameters
+        ----------
+        simulation
+            The one that the bridge was made for, at a step boundary.
+
+        Returns
+        -------
+        bool
+            Whether the simulation may go on; False where no answer has come yet.
+
+        """
+
     def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
-        """Take the sticks of a radio control; raises CommandError here."""
+        """
+        Take the sticks of a radio control; raises CommandError here.
+
+        Parameters
+        ----------
+        axes
+            Deflections, -1 to 1.
+        buttons
+            0 for off, another number for on.
+
+        Raises
+        ------
+        CommandError
+            Always here: a protocol that has sticks defines this anew.
+
+        """
         raise CommandError(f'{self.name} takes its sticks from a ground station')
 
     def status(self) -> BridgeStatus:

@@ -106,6 +106,20 @@ def load_mapping(protocol: str, vehicle: str, name: str = '') -> tuple[Autopilot
     """
     Read a mapping by name or path; by default that of the protocol and the vehicle.
 
+    Parameters
+    ----------
+    protocol
+        ``px4`` or ``ardupilot``.
+    vehicle
+        Name of the vehicle, for the default mapping.
+    name
+        Name of a file of config/autopilots, or a path that ends in .yaml; '' for the default.
+
+    Returns
+    -------
+    file, path
+        The mapping, and where it was read.
+
     Raises
     ------
     ConfigError
@@ -177,7 +191,20 @@ class ActuatorMap:
         self.rest = ([0.0] * len(self._thrusters), [0.0] * len(self._joints))
 
     def commands(self, outputs: Sequence[float]) -> tuple[list[float], list[float]]:
-        """Return thrusts [N] and joint commands, each in the vehicle's order."""
+        """
+        Return thrusts [N] and joint commands, each in the vehicle's order.
+
+        Parameters
+        ----------
+        outputs
+            Of the autopilot: control values or pulse widths [us], by number from 1.
+
+        Returns
+        -------
+        thrusts, joints
+            [N], and [rad] or [m] as the joint's actuator takes it.
+
+        """
         thrusts = [curve(outputs[place]) for place, curve in self._thrusters]
         return thrusts, [curve(outputs[place]) for place, curve in self._joints]
 
@@ -186,6 +213,12 @@ class ActuatorMap:
         Return an output that has moved since the first look and drives nothing, once each.
 
         Cheap enough for every answer, because it looks at every 25th only.
+
+        Parameters
+        ----------
+        outputs
+            As for ``commands``.
+
         """
         self._looks += 1
         if self._looks % _LOOK:

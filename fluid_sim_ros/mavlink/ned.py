@@ -17,12 +17,38 @@ _STRAIGHT = 1.0 - 1e-12
 
 
 def enu_to_ned(vector: Sequence[float]) -> Vector3:
-    """Return a world vector in NED axes (the same rule leads back)."""
+    """
+    Return a world vector in NED axes (the same rule leads back).
+
+    Parameters
+    ----------
+    vector
+        ENU axes, three numbers of any unit.
+
+    Returns
+    -------
+    vector_ned
+        NED axes, the same unit.
+
+    """
     return (vector[1], vector[0], -vector[2])
 
 
 def flu_to_frd(vector: Sequence[float]) -> Vector3:
-    """Return a body vector in FRD axes (the same rule leads back)."""
+    """
+    Return a body vector in FRD axes (the same rule leads back).
+
+    Parameters
+    ----------
+    vector
+        FLU axes, three numbers of any unit.
+
+    Returns
+    -------
+    vector_frd
+        FRD axes, the same unit.
+
+    """
     return (vector[0], -vector[1], -vector[2])
 
 
@@ -32,6 +58,17 @@ def attitude_to_ned(quat_wb_wxyz: Sequence[float]) -> Quaternion:
 
     q_ned_frd = q_ned_enu q_enu_flu q_flu_frd, with half turns about (1, 1, 0)/sqrt 2 and about x.
     A vehicle that heads east, the identity here, has a yaw of +90 degrees there.
+
+    Parameters
+    ----------
+    quat_wb_wxyz
+        Rotation of body (FLU) to world (ENU) vectors, scalar first, four numbers.
+
+    Returns
+    -------
+    quaternion
+        Rotation of FRD to NED vectors, scalar first.
+
     """
     w, x, y, z = quat_wb_wxyz
     return (_HALF * (w + z), _HALF * (x + y), _HALF * (x - y), _HALF * (w - z))
@@ -42,6 +79,17 @@ def euler(quat_wxyz: Sequence[float]) -> Vector3:
     Return roll, pitch and yaw [rad] (about z, then y, then x) of a unit quaternion.
 
     With the nose straight up or down, where roll and yaw are one angle, roll is 0.
+
+    Parameters
+    ----------
+    quat_wxyz
+        Unit quaternion, scalar first, four numbers.
+
+    Returns
+    -------
+    roll, pitch, yaw
+        [rad]; pitch from -pi/2 to pi/2, the others from -pi to pi.
+
     """
     w, x, y, z = quat_wxyz
     sine = 2.0 * (w * y - z * x)

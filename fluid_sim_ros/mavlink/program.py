@@ -99,6 +99,24 @@ def command_line(
     """
     Return the arguments that start an autopilot; its parameters become a file in ``folder``.
 
+    Parameters
+    ----------
+    command
+        What the user would type, as one line.
+    options
+        Protocol, instance and address.
+    file
+        The mapping, which holds ArduPilot's parameters.
+    home
+        Where the vehicle starts [deg], [deg], [m].
+    folder
+        Where the file of parameters is written.
+
+    Returns
+    -------
+    arguments
+        The program and its arguments.
+
     Raises
     ------
     ConfigError

@@ -108,7 +108,22 @@ class Px4Bridge(AutopilotLink):
         return self._wait()
 
     def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
-        """Take the sticks of a radio control, which PX4 gets as RC_CHANNELS; see ``Sticks``."""
+        """
+        Take the sticks of a radio control, which PX4 gets as RC_CHANNELS; see ``Sticks``.
+
+        Parameters
+        ----------
+        axes
+            Deflections, -1 to 1; saturated.
+        buttons
+            0 for off, another number for on.
+
+        Raises
+        ------
+        CommandError
+            If they are too many, none, or not finite.
+
+        """
         self._sticks.move(axes, buttons)
 
     def _values(self) -> dict[str, Any]:

@@ -52,6 +52,12 @@ class Watch:
 
     Quick is who has answered within 200 us the last time, and only where this process may use
     more than one processor.
+
+    Parameters
+    ----------
+    watched
+        The socket, connected or bound.
+
     """
 
     def __init__(self, watched: socket.socket) -> None:
@@ -61,7 +67,15 @@ class Watch:
         self._quick = False
 
     def readable(self, timeout: float) -> bool:
-        """Return whether there is something to read within ``timeout`` [s]."""
+        """
+        Return whether there is something to read within ``timeout`` [s].
+
+        Parameters
+        ----------
+        timeout
+            Longest wait [s].
+
+        """
         poll = self._readable.poll
         if timeout <= _QUICK:
             return bool(poll(max(0.0, timeout) * 1000.0))
@@ -116,7 +130,20 @@ class TcpServer:
         return len(self._backlog) > _LARGEST_BACKLOG
 
     def accept(self, timeout: float) -> bool:
-        """Wait up to ``timeout`` [s] for a client; return whether there is one."""
+        """
+        Wait up to ``timeout`` [s] for a client; return whether there is one.
+
+        Parameters
+        ----------
+        timeout
+            Longest wait [s].
+
+        Returns
+        -------
+        bool
+            Whether there is a client.
+
+        """
         if self._client is None and select.select([self._listener], [], [], timeout)[0]:
             try:
                 client, peer = self._listener.accept()
@@ -132,7 +159,15 @@ class TcpServer:
         return self._client is not None
 
     def send(self, data: bytes = b'') -> None:
-        """Send bytes; what the client does not take yet is kept and sent first next time."""
+        """
+        Send bytes; what the client does not take yet is kept and sent first next time.
+
+        Parameters
+        ----------
+        data
+            What to send; empty to try again what is left.
+
+        """
         if self._client is None:
             return
         if self._backlog:
@@ -147,7 +182,20 @@ class TcpServer:
         self._backlog = data[sent:]
 
     def receive(self, timeout: float) -> bytes | None:
-        """Return what arrives within ``timeout`` [s], b'' for nothing, None when it has gone."""
+        """
+        Return what arrives within ``timeout`` [s], b'' for nothing, None when it has gone.
+
+        Parameters
+        ----------
+        timeout
+            Longest wait [s].
+
+        Returns
+        -------
+        bytes or None
+            At most 64 KiB.
+
+        """
         client, watch = self._client, self._watch
         if client is None or watch is None:
             return None
@@ -181,8 +229,19 @@ class UdpPort:
     """
     Takes datagrams on a port.
 
-    Parameters and errors as ``TcpServer``; ``longest`` is the largest datagram that is read
-    whole [bytes]: of a longer one so much arrives that its length shows.
+    Parameters
+    ----------
+    address, port
+        Where to listen; port 0 lets the system choose.
+    longest
+        Largest datagram that is read whole [bytes]; of a longer one so much arrives that its
+        length shows.
+
+    Raises
+    ------
+    ConfigError
+        If the port is in use or the address is not one of this host.
+
     """
 
     def __init__(self, address: str, port: int, longest: int) -> None:
@@ -192,7 +251,20 @@ class UdpPort:
         self._watch = Watch(self._socket)
 
     def receive(self, timeout: float) -> Datagram | None:
-        """Return a datagram and its sender, or None when none came within ``timeout`` [s]."""
+        """
+        Return a datagram and its sender, or None when none came within ``timeout`` [s].
+
+        Parameters
+        ----------
+        timeout
+            Longest wait [s].
+
+        Returns
+        -------
+        (bytes, address) or None
+            The datagram and whom to answer.
+
+        """
         if not self._watch.readable(timeout):
             return None
         try:
@@ -202,7 +274,17 @@ class UdpPort:
         return data, sender
 
     def send(self, data: bytes, receiver: Any) -> None:
-        """Send a datagram; a receiver that is not there is no error."""
+        """
+        Send a datagram; a receiver that is not there is no error.
+
+        Parameters
+        ----------
+        data
+            One datagram.
+        receiver
+            Address that ``receive`` gave.
+
+        """
         try:
             self._socket.sendto(data, receiver)
         except OSError:

@@ -43,6 +43,13 @@ class Sticks:
         """
         Set the channels: axes from -1 to 1, saturated; buttons 0 (off) or another number (on).
 
+        Parameters
+        ----------
+        axes
+            Deflections, -1 to 1.
+        buttons
+            0 or another number.
+
         Raises
         ------
         CommandError

@@ -45,7 +45,15 @@ class Truth:
 
 
 class TruthReader:
-    """Reads the true state of one vehicle at a step boundary."""
+    """
+    Reads the true state of one vehicle at a step boundary.
+
+    Parameters
+    ----------
+    simulation, vehicle
+        Where the vehicle is, and its name.
+
+    """
 
     def __init__(self, simulation: Simulation, vehicle: str) -> None:
         self._simulation = simulation
@@ -53,7 +61,20 @@ class TruthReader:
         self._velocity_w = np.zeros(3)
 
     def read(self, forces: bool) -> Truth:
-        """Return the state; with ``forces`` also the specific force at this very state."""
+        """
+        Return the state; with ``forces`` also the specific force at this very state.
+
+        Parameters
+        ----------
+        forces
+            Whether the specific force is wanted, which costs an evaluation of all forces.
+
+        Returns
+        -------
+        Truth
+            NED and FRD axes.
+
+        """
         row = self._simulation.observe(forces, wrenches=False)[self._index]
         mujoco.mju_rotVecQuat(self._velocity_w, row[nat.LINEAR_VELOCITY], row[nat.QUATERNION])
         numbers = row.tolist()

@@ -33,7 +33,24 @@ class Frame:
         self._extra = bytes([message.crc_extra])
 
     def pack(self, sequence: int, system: int, component: int, *fields: Any) -> bytes:
-        """Return the frame of a message; trailing zeros of its payload are left out."""
+        """
+        Return the frame of a message; trailing zeros of its payload are left out.
+
+        Parameters
+        ----------
+        sequence
+            Number of the message on this connection, 0 to 255.
+        system, component
+            MAVLink ids of the sender.
+        *fields
+            In the order of the message's layout on the wire.
+
+        Returns
+        -------
+        bytes
+            The frame.
+
+        """
         payload = self._layout.pack(*fields).rstrip(b'\0') or b'\0'
         head = _HEAD.pack(
             _MAGIC, len(payload), 0, 0, sequence, system, component, self._id & 0xFFFF,
@@ -43,7 +60,20 @@ class Frame:
         return frame + _CHECKSUM.pack(self._checksum(frame))
 
     def read(self, data: bytes) -> tuple[Any, ...] | None:
-        """Return the fields where the bytes are one sound, unsigned frame of this message."""
+        """
+        Return the fields where the bytes are one sound, unsigned frame of this message.
+
+        Parameters
+        ----------
+        data
+            Bytes that may be one frame.
+
+        Returns
+        -------
+        fields or None
+            In the order of the message's layout on the wire.
+
+        """
         size, whole = len(data) - 12, self._layout.size
         if not 0 < size <= whole or data[0] != _MAGIC or data[1] != size or data[2]:
             return None

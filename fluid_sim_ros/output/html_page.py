@@ -14,7 +14,26 @@ _SCRIPT = Path(__file__).with_suffix('.js')
 
 
 def write_page(template: Path, title: str, content: Any, path: Path) -> Path:
-    """Write a template with STYLE, SCRIPT, TITLE and DATA (JSON) filled in; return the file."""
+    """
+    Write a template with STYLE, SCRIPT, TITLE and DATA (JSON) filled in; return the file.
+
+    Parameters
+    ----------
+    template
+        HTML file with the words STYLE, SCRIPT, TITLE and DATA.
+    title
+        Of the page, plain text.
+    content
+        What becomes JSON; no NaN.
+    path
+        Where the page is written.
+
+    Returns
+    -------
+    Path
+        The file, as given.
+
+    """
     # no text of the data may end the script element
     data = json.dumps(content, allow_nan=False).replace('<', '\\u003c')
     text = template.read_text(encoding='utf-8')

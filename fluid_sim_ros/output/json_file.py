@@ -11,6 +11,13 @@ def write_json(path: str, result: object) -> None:
     """
     Write a result as JSON to a file, or with ``-`` to standard output.
 
+    Parameters
+    ----------
+    path
+        Of the file, or ``-``.
+    result
+        What json can write; NaN and infinity are a ValueError.
+
     Raises
     ------
     ConfigError
