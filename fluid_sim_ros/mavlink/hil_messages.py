@@ -1,5 +1,5 @@
 """
-The MAVLink 2 messages between a simulator and PX4: their bytes, their bits and their units.
+The MAVLink 2 messages of a simulator to PX4: their bytes, their bits and their units.
 
 Body axes are FRD, world axes NED. The codec is pymavlink's ``common`` dialect; see
 https://mavlink.io/en/messages/common.html for the fields.
@@ -7,7 +7,7 @@ https://mavlink.io/en/messages/common.html for the fields.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from pymavlink.dialects.v20 import common as dialect
 
@@ -27,15 +27,8 @@ _GCS, _NOT_AN_AUTOPILOT = 6, 8  # MAV_TYPE_GCS, MAV_AUTOPILOT_INVALID
 _COURSE_UNKNOWN = 65535  # [cdeg]
 #: Upper triangle of a 6x6 covariance: places of its diagonal.
 _DIAGONAL = (0, 6, 11, 15, 18, 20)
-#: First byte of a message of MAVLink 1.
-MAVLINK1 = 0xFE
-#: The two messages of every exchange.
+#: The message of every exchange.
 _SENSORS = Frame(dialect.MAVLink_hil_sensor_message)
-_ANSWER = Frame(dialect.MAVLink_hil_actuator_controls_message)
-#: MAV_MODE_FLAG_SAFETY_ARMED of ``mode``, HIL_ACTUATOR_CONTROLS_FLAGS_LOCKSTEP of ``flags``.
-_ARMED, _LOCKSTEP = 128, 1
-#: Message ids.
-_ACTUATORS, _OLD_CONTROLS = 93, 91
 
 
 @dataclass
@@ -66,28 +59,9 @@ class SensorReadings:
     differential_pressure: float | None = None
 
 
-@dataclass
-class Actuators:
-    """A HIL_ACTUATOR_CONTROLS: time [us], 16 outputs, armed, lockstep."""
-
-    time_us: int
-    controls: Sequence[float]
-    armed: bool
-    lockstep: bool
-
-
-@dataclass
-class Received:
-    """What a portion of the stream held."""
-
-    actuators: list[Actuators] = field(default_factory=list)
-    messages: int = 0
-    faults: list[str] = field(default_factory=list)
-
-
-class HilCodec:
+class HilWriter:
     """
-    Packs the simulator's messages and reads the autopilot's, for one connection.
+    Packs the simulator's messages, which it numbers, for one connection.
 
     Parameters
     ----------
@@ -98,14 +72,11 @@ class HilCodec:
 
     def __init__(self, system: int = 1, component: int = 51) -> None:
         self._mav = dialect.MAVLink(None, srcSystem=system, srcComponent=component)
-        self._mav.robust_parsing = True
 
     def _pack(self, message: dialect.MAVLink_message) -> bytes:
         data: bytes = message.pack(self._mav)
         self._mav.seq = (self._mav.seq + 1) % 256
         return data
-
-    # ---- to the autopilot ------------------------------------------------------------------
 
     def sensors(self, time_us: int, readings: SensorReadings) -> bytes:
         """
@@ -308,60 +279,6 @@ class HilCodec:
         return self._pack(
             dialect.MAVLink_rc_channels_message(time_ms, len(channels), *pulses, 255)
         )
-
-    # ---- from the autopilot ----------------------------------------------------------------
-
-    def receive(self, data: bytes) -> Received:
-        """
-        Read a portion of the stream; an unfinished message waits for the next portion.
-
-        Parameters
-        ----------
-        data
-            Bytes as they came from the socket; they may begin and end inside a message.
-
-        Returns
-        -------
-        Received
-            Actuator outputs, the number of messages, and one line for each fault.
-
-        """
-        received, mav = Received(), self._mav
-        # most portions are one whole answer
-        if not mav.buf and (fields := _ANSWER.read(data)) is not None:
-            time_us, flags, *controls, mode = fields
-            received.messages = 1
-            received.actuators.append(_actuators(time_us, controls, mode, flags))
-            return received
-        for message in mav.parse_buffer(data) or ():
-            kind = message.get_msgId()
-            if kind == _ACTUATORS:
-                received.messages += 1
-                received.actuators.append(
-                    _actuators(message.time_usec, message.controls, message.mode, message.flags)
-                )
-            elif kind == _OLD_CONTROLS:
-                received.faults.append('HIL_CONTROLS: this PX4 is too old; it needs 1.9 or later')
-            elif kind < 0:
-                received.faults.append(_fault(message))
-            else:
-                received.messages += 1
-        # the parser keeps what it has read until it has read all
-        if mav.buf_index:
-            del mav.buf[: mav.buf_index]
-            mav.buf_index = 0
-        return received
-
-
-def _actuators(time_us: int, controls: Sequence[float], mode: int, flags: int) -> Actuators:
-    return Actuators(time_us, controls, bool(mode & _ARMED), bool(flags & _LOCKSTEP))
-
-
-def _fault(message: dialect.MAVLink_message) -> str:
-    data = message.data if message.get_type() == 'BAD_DATA' else b''
-    if data[:1] == bytes([MAVLINK1]):
-        return 'MAVLink 1: this autopilot is too old, or these are other bytes'
-    return f'{len(data)} bytes are no MAVLink message'
 
 
 def _int16(value: float) -> int:

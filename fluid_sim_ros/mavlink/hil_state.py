@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.mavlink.hil_messages import HilCodec, SensorReadings
+from fluid_sim_ros.mavlink.hil_messages import HilWriter, SensorReadings
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
 from fluid_sim_ros.mavlink.sticks import Sticks
@@ -79,13 +79,13 @@ class HilState:
         self._noise = random.Random(simulation.seed)
         self._count = 0
 
-    def messages(self, codec: HilCodec, now_us: int) -> bytes:
+    def messages(self, writer: HilWriter, now_us: int) -> bytes:
         """
         Return the messages of the exchange at ``now_us``, the autopilot's time [us].
 
         Parameters
         ----------
-        codec
+        writer
             Of the connection, which numbers the messages.
         now_us
             Time by the autopilot's clock [us].
@@ -99,10 +99,10 @@ class HilState:
         self._suite.update()
         count, self._count = self._count, self._count + 1
         readings = self._readings()
-        data = b'' if count % _HEARTBEAT else codec.heartbeat()
+        data = b'' if count % _HEARTBEAT else writer.heartbeat()
         if self._vision and count % _PRESSURE == 0:
             truth = self._truth.read(forces=False)
-            data += codec.odometry(
+            data += writer.odometry(
                 now_us, truth.position_ned, truth.attitude, truth.velocity_frd, truth.rates,
                 _POSE_VARIANCE, _TWIST_VARIANCE,
             )  # fmt: skip
@@ -110,13 +110,13 @@ class HilState:
         if self._gnss is not None and self._gnss.fresh:
             gnss = self._gnss
             velocity = enu_to_ned(gnss.velocity_w.tolist())
-            data += codec.gps(now_us, gnss.latitude, gnss.longitude, gnss.altitude, velocity)
+            data += writer.gps(now_us, gnss.latitude, gnss.longitude, gnss.altitude, velocity)
         if count % _TRUTH == 0:
-            data += self._true_state(codec, now_us)
+            data += self._true_state(writer, now_us)
         if count % _STICKS == 0 and (pulses := self._sticks.pulses()):
-            data += codec.rc_channels(now_us // 1000, pulses)
+            data += writer.rc_channels(now_us // 1000, pulses)
         # last, because it is what PX4 answers to
-        return data + codec.sensors(now_us, readings)
+        return data + writer.sensors(now_us, readings)
 
     def _readings(self) -> SensorReadings:
         imu, barometer, airspeed = self._imu, self._barometer, self._airspeed
@@ -142,10 +142,10 @@ class HilState:
         readings.pressure_altitude = pressure_altitude(pressure)
         readings.temperature = standard_temperature(readings.pressure_altitude) + _CELSIUS
 
-    def _true_state(self, codec: HilCodec, now_us: int) -> bytes:
+    def _true_state(self, writer: HilWriter, now_us: int) -> bytes:
         truth = self._truth.read(forces=True)
         north, east, down = truth.position_ned
-        return codec.truth(
+        return writer.truth(
             now_us, truth.attitude, truth.rates, self._frame.geodetic(east, north, -down),
             truth.velocity_ned, truth.airspeed, truth.specific_force,
         )  # fmt: skip

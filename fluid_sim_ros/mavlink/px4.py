@@ -13,7 +13,8 @@ from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
-from fluid_sim_ros.mavlink.hil_messages import Actuators, HilCodec
+from fluid_sim_ros.mavlink.hil_answers import Actuators, HilReader
+from fluid_sim_ros.mavlink.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, AutopilotFile
@@ -69,7 +70,7 @@ class Px4Bridge(AutopilotLink):
         self._period = steps.numerator
         self._sticks = Sticks(file.rc, options.sticks_timeout)
         self._state = HilState(simulation, options.vehicle, file, self._sticks)
-        self._codec = HilCodec()
+        self._writer, self._reader = HilWriter(), HilReader()
         self._server = TcpServer(options.address, options.port or FIRST_PORT + options.instance)
         self.port = self._server.port
         self._locked = False  # it has answered: wait for it
@@ -158,7 +159,7 @@ class Px4Bridge(AutopilotLink):
         if not self._server.accept(SLICE):
             return False
         self.counters.connections += 1
-        self._codec = HilCodec()
+        self._writer, self._reader = HilWriter(), HilReader()
         self._locked = False
         self._sent_us = self._answered_us = self._offset_us = 0
         self._surroundings.report('connected', f'PX4 at {self._server.peer}')
@@ -172,7 +173,7 @@ class Px4Bridge(AutopilotLink):
     def _send(self, simulation: Simulation, now_us: int) -> None:
         self._sent_us = now_us
         self.counters.sent += 1
-        self._server.send(self._state.messages(self._codec, now_us))
+        self._server.send(self._state.messages(self._writer, now_us))
         self._asked_at = time.monotonic()
 
     def _wait(self) -> bool:
@@ -199,7 +200,7 @@ class Px4Bridge(AutopilotLink):
             self._lost()
             return False
         if data:
-            received = self._codec.receive(data)
+            received = self._reader.receive(data)
             for fault in received.faults:
                 self._malformed(fault)
             for actuators in received.actuators:

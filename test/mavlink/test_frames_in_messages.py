@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.mavlink.hil_messages import HilCodec
+from fluid_sim_ros.mavlink.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.json_packets import write_state
 from fluid_sim_ros.mavlink.mapping import load_mapping
@@ -82,7 +82,7 @@ def messages(scene, case, height):
     simulation = placed(scene, case, height)
     (vehicle,) = simulation.vehicles
     file, _ = load_mapping('px4', vehicle)
-    state, codec = HilState(simulation, vehicle, file, Sticks((), 0.0)), HilCodec()
+    state, codec = HilState(simulation, vehicle, file, Sticks((), 0.0)), HilWriter()
     found = {}
     for step in (2, 4, 6, 50):  # the magnetometer is due at 6, the receiver at 50
         simulation._step = step

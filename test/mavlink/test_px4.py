@@ -268,7 +268,7 @@ def fuzz(flight, px4, messages, seed=2):
     answered = messages // 20
     assert waited(lambda: flight.bridge.counters.answered == answered)
     assert flight.bridge.counters.malformed > messages // 2
-    assert len(flight.bridge._codec._mav.buf) < 300
+    assert len(flight.bridge._reader._mav.buf) < 300
 
 
 #: Random bytes must not announce a message that swallows the next one.
@@ -291,7 +291,7 @@ def test_a_peer_of_random_bytes_keeps_little_memory(flight):
         px4.socket.sendall(rng.randbytes(1000))
 
     def all_is_read():
-        parser = flight.bridge._codec._mav  # made anew with the connection
+        parser = flight.bridge._reader._mav  # made anew with the connection
         return parser.total_bytes_received >= 200_000 and len(parser.buf) < 300
 
     assert waited(all_is_read)
@@ -374,6 +374,7 @@ def test_a_timestep_that_does_not_divide_4_ms_is_refused():
 
 def test_a_missing_extra_is_named(monkeypatch):
     monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_answers')
     monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_messages')
     monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_state')
     monkeypatch.setitem(sys.modules, 'pymavlink.dialects.v20', None)

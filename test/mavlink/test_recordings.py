@@ -5,7 +5,8 @@ import struct
 
 import pytest
 
-from fluid_sim_ros.mavlink.hil_messages import HilCodec, SensorReadings, dialect
+from fluid_sim_ros.mavlink.hil_answers import HilReader
+from fluid_sim_ros.mavlink.hil_messages import HilWriter, SensorReadings, dialect
 from fluid_sim_ros.mavlink.json_packets import JsonState, read_servo_packet, write_state
 from fluid_sim_ros.mavlink.ned import euler
 from test.support.autopilots import hil_wire
@@ -20,8 +21,8 @@ def test_every_actuator_frame_of_px4_is_read():
     stream = portions(PX4, FROM_AUTOPILOT)
     expected, rest = hil_wire.frames(b''.join(stream))
     assert rest == b''
-    codec = HilCodec()
-    received = [codec.receive(portion) for portion in stream]
+    reader = HilReader()
+    received = [reader.receive(portion) for portion in stream]
     actuators = [a for r in received for a in r.actuators]
     controls = [fields for name, fields in expected if name == 'HIL_ACTUATOR_CONTROLS']
     assert sum(r.messages for r in received) == len(expected) == 768
@@ -63,7 +64,7 @@ def test_recorded_readings_are_packed_to_the_same_bytes():
                 v['pressure_alt'],
                 v['temperature'],
             )
-            data = HilCodec().sensors(v['time_usec'], readings)
+            data = HilWriter().sensors(v['time_usec'], readings)
             (ours,), rest = hil_wire.frames(data)
             if not bits & 0x1C0:
                 v = v | {'xmag': 0.0, 'ymag': 0.0, 'zmag': 0.0}
@@ -113,7 +114,7 @@ def test_recorded_states_are_written_as_ardupilot_read_them(name):
 
 
 def test_the_true_state_has_the_units_that_px4_reads():
-    data = HilCodec().truth(
+    data = HilWriter().truth(
         4000, (1.0, 0.0, 0.0, 0.0), (0.1, 0.2, 0.3), (47.1, 8.2, 430.5), (1.234, -2.0, 400.0),
         3.2, (1.5, -40.0, -9.80665),
     )  # fmt: skip

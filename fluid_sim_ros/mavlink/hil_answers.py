@@ -1,0 +1,100 @@
+"""
+The MAVLink 2 messages of PX4 to a simulator: outputs of the autopilot, and what is wrong.
+
+The codec is pymavlink's ``common`` dialect; see https://mavlink.io/en/messages/common.html.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from pymavlink.dialects.v20 import common as dialect
+
+from fluid_sim_ros.mavlink.wire import Frame
+
+#: First byte of a message of MAVLink 1.
+MAVLINK1 = 0xFE
+#: The message of every exchange.
+_ANSWER = Frame(dialect.MAVLink_hil_actuator_controls_message)
+#: MAV_MODE_FLAG_SAFETY_ARMED of ``mode``, HIL_ACTUATOR_CONTROLS_FLAGS_LOCKSTEP of ``flags``.
+_ARMED, _LOCKSTEP = 128, 1
+#: Message ids.
+_ACTUATORS, _OLD_CONTROLS = 93, 91
+
+
+@dataclass
+class Actuators:
+    """A HIL_ACTUATOR_CONTROLS: time [us], 16 outputs, armed, lockstep."""
+
+    time_us: int
+    controls: Sequence[float]
+    armed: bool
+    lockstep: bool
+
+
+@dataclass
+class Received:
+    """What a portion of the stream held."""
+
+    actuators: list[Actuators] = field(default_factory=list)
+    messages: int = 0
+    faults: list[str] = field(default_factory=list)
+
+
+class HilReader:
+    """Reads the stream of one autopilot, in portions of any size."""
+
+    def __init__(self) -> None:
+        self._mav = dialect.MAVLink(None)
+        self._mav.robust_parsing = True
+
+    def receive(self, data: bytes) -> Received:
+        """
+        Read a portion of the stream; an unfinished message waits for the next portion.
+
+        Parameters
+        ----------
+        data
+            Bytes as they came from the socket; they may begin and end inside a message.
+
+        Returns
+        -------
+        Received
+            Actuator outputs, the number of messages, and one line for each fault.
+
+        """
+        received, mav = Received(), self._mav
+        # most portions are one whole answer
+        if not mav.buf and (fields := _ANSWER.read(data)) is not None:
+            time_us, flags, *controls, mode = fields
+            received.messages = 1
+            received.actuators.append(_actuators(time_us, controls, mode, flags))
+            return received
+        for message in mav.parse_buffer(data) or ():
+            kind = message.get_msgId()
+            if kind == _ACTUATORS:
+                received.messages += 1
+                received.actuators.append(
+                    _actuators(message.time_usec, message.controls, message.mode, message.flags)
+                )
+            elif kind == _OLD_CONTROLS:
+                received.faults.append('HIL_CONTROLS: this PX4 is too old; it needs 1.9 or later')
+            elif kind < 0:
+                received.faults.append(_fault(message))
+            else:
+                received.messages += 1
+        # the parser keeps what it has read until it has read all
+        if mav.buf_index:
+            del mav.buf[: mav.buf_index]
+            mav.buf_index = 0
+        return received
+
+
+def _actuators(time_us: int, controls: Sequence[float], mode: int, flags: int) -> Actuators:
+    return Actuators(time_us, controls, bool(mode & _ARMED), bool(flags & _LOCKSTEP))
+
+
+def _fault(message: dialect.MAVLink_message) -> str:
+    data = message.data if message.get_type() == 'BAD_DATA' else b''
+    if data[:1] == bytes([MAVLINK1]):
+        return 'MAVLink 1: this autopilot is too old, or these are other bytes'
+    return f'{len(data)} bytes are no MAVLink message'
