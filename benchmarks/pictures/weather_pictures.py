@@ -13,7 +13,7 @@ from fluid_sim_ros.physics.environment.medium import (
     power_law_profile,
     table_profile,
 )
-from fluid_sim_ros.physics.environment.turbulence import (
+from fluid_sim_ros.physics.environment.turbulence_scales import (
     turbulence_intensity,
     turbulence_length,
 )

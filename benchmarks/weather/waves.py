@@ -18,17 +18,13 @@ from scipy.integrate import quad, solve_ivp
 
 from benchmarks.common import RESULTS, ROOT, arguments, write
 from fluid_sim_ros import Simulation
+from fluid_sim_ros.physics.environment.wave_dispersion import dispersion_wavenumber
 from fluid_sim_ros.physics.environment.wave_spectrum import (
     jonswap_shape,
     jonswap_spectrum,
     jonswap_waves,
 )
-from fluid_sim_ros.physics.environment.waves import (
-    Sea,
-    dispersion_wavenumber,
-    regular_waves,
-    wave_flow,
-)
+from fluid_sim_ros.physics.environment.waves import Sea, regular_waves, wave_flow
 from fluid_sim_ros.recording.pictures.water import surface_heights
 from test.support.plugin_models import (
     Array,

@@ -11,7 +11,28 @@ Wrench = tuple[Array, Array]  # force [N], torque [N m]
 
 
 def vectors(value: ArrayLike, name: str, size: int = 3) -> Array:
-    """Return the value as float vectors of shape (..., size), or raise a `ConfigError`."""
+    """
+    Return a value as vectors of double precision.
+
+    Parameters
+    ----------
+    value
+        Numbers, shape (..., size).
+    name
+        What the value is called in an error.
+    size
+        Length of each vector.
+
+    Returns
+    -------
+    The same numbers, shape (..., size).
+
+    Raises
+    ------
+    ConfigError
+        If the last axis has another length.
+
+    """
     array = np.asarray(value, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != size:
         raise ConfigError(f'{name}: shape {array.shape}; allowed: (..., {size})')
@@ -19,7 +40,28 @@ def vectors(value: ArrayLike, name: str, size: int = 3) -> Array:
 
 
 def positive_vectors(value: ArrayLike, name: str, size: int = 3) -> Array:
-    """Return vectors whose entries are all finite and above zero, or raise a `ConfigError`."""
+    """
+    Return vectors whose entries are all finite and above zero.
+
+    Parameters
+    ----------
+    value
+        Numbers, shape (..., size).
+    name
+        What the value is called in an error.
+    size
+        Length of each vector.
+
+    Returns
+    -------
+    The same numbers, shape (..., size).
+
+    Raises
+    ------
+    ConfigError
+        If a number is not finite or not above zero, or the shape does not fit.
+
+    """
     array = vectors(value, name, size)
     if not np.all(np.isfinite(array) & (array > 0)):
         raise ConfigError(f'{name}: {array.tolist()}; allowed: finite numbers > 0')
@@ -27,7 +69,26 @@ def positive_vectors(value: ArrayLike, name: str, size: int = 3) -> Array:
 
 
 def not_negative(value: ArrayLike, name: str) -> Array:
-    """Return numbers that are all finite and at least zero, or raise a `ConfigError`."""
+    """
+    Return numbers that are all finite and at least zero.
+
+    Parameters
+    ----------
+    value
+        Numbers of any shape.
+    name
+        What the value is called in an error.
+
+    Returns
+    -------
+    The same numbers, same shape.
+
+    Raises
+    ------
+    ConfigError
+        If a number is not finite or below zero.
+
+    """
     array = np.asarray(value, dtype=np.float64)
     if not np.all(np.isfinite(array) & (array >= 0)):
         raise ConfigError(f'{name}: {array.tolist()}; allowed: finite numbers >= 0')
@@ -35,7 +96,26 @@ def not_negative(value: ArrayLike, name: str) -> Array:
 
 
 def positive(value: ArrayLike, name: str) -> Array:
-    """Return numbers that are all finite and above zero, or raise a `ConfigError`."""
+    """
+    Return numbers that are all finite and above zero.
+
+    Parameters
+    ----------
+    value
+        Numbers of any shape.
+    name
+        What the value is called in an error.
+
+    Returns
+    -------
+    The same numbers, same shape.
+
+    Raises
+    ------
+    ConfigError
+        If a number is not finite or not above zero.
+
+    """
     array = np.asarray(value, dtype=np.float64)
     if not np.all(np.isfinite(array) & (array > 0)):
         raise ConfigError(f'{name}: {array.tolist()}; allowed: finite numbers > 0')
@@ -43,13 +123,37 @@ def positive(value: ArrayLike, name: str) -> Array:
 
 
 def norm(v: Array) -> Array:
-    """Return the lengths of vectors of shape (..., 3) as an array of shape (..., 1)."""
+    """
+    Return the lengths of vectors, ready to divide them by.
+
+    Parameters
+    ----------
+    v
+        Vectors, shape (..., n).
+
+    Returns
+    -------
+    Lengths in the unit of ``v``, shape (..., 1).
+
+    """
     length: Array = np.linalg.norm(v, axis=-1, keepdims=True)
     return length
 
 
 def unit_or_zero(v: Array) -> Array:
-    """Return unit vectors; a zero vector stays zero (no direction, no NaN)."""
+    """
+    Return unit vectors; a zero vector stays zero (no direction, no NaN).
+
+    Parameters
+    ----------
+    v
+        Vectors, shape (..., n).
+
+    Returns
+    -------
+    [-], same shape.
+
+    """
     # Divide by the largest entry first: squares of tiny components would underflow.
     scale = np.max(np.abs(v), axis=-1, keepdims=True)
     scaled = v / np.where(scale > 0, scale, 1.0)
@@ -59,12 +163,36 @@ def unit_or_zero(v: Array) -> Array:
 
 
 def column(value: ArrayLike) -> Array:
-    """Return scalars of shape (...) as (..., 1), ready to multiply vectors."""
+    """
+    Return scalars with one more axis, ready to multiply vectors.
+
+    Parameters
+    ----------
+    value
+        Scalars, shape (...).
+
+    Returns
+    -------
+    The same numbers, shape (..., 1).
+
+    """
     return np.asarray(value, dtype=np.float64)[..., np.newaxis]
 
 
 def cross_matrix(v: ArrayLike) -> Array:
-    """Return S(v) of shape (..., 3, 3) with S(v) w = v x w."""
+    """
+    Return the matrix S(v) with S(v) w = v x w.
+
+    Parameters
+    ----------
+    v
+        Vectors, shape (..., 3).
+
+    Returns
+    -------
+    S in the unit of ``v``, shape (..., 3, 3).
+
+    """
     v = vectors(v, 'vector')
     s = np.zeros((*v.shape, 3))
     s[..., 0, 1], s[..., 0, 2], s[..., 1, 2] = -v[..., 2], v[..., 1], -v[..., 0]

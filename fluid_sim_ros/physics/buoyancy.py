@@ -52,8 +52,25 @@ def layered_buoyancy_wrench(
     Return the buoyancy of a body partly in water and partly in air (or two other layers).
 
     Each part displaces its own medium: rho_above V at the body's centre of volume plus
-    (rho_below - rho_above) V_wet at the centre of the wet part. Units and shapes as in
-    `buoyancy_wrench`.
+    (rho_below - rho_above) V_wet at the centre of the wet part.
+
+    Parameters
+    ----------
+    density_below, density_above
+        Of the lower and the upper medium [kg/m^3], shape (...).
+    volume, center_b
+        Whole volume of the body [m^3], shape (...), and its centre from the reference point [m],
+        body axes, shape (..., 3).
+    wet_volume, wet_center_b
+        Of the part in the lower medium, likewise.
+    gravity_b
+        Acceleration of gravity (points down) [m/s^2], body axes, shape (..., 3).
+
+    Returns
+    -------
+    force_b, torque_b
+        [N], [N m] about the reference point, body axes, shape (..., 3) each.
+
     """
     whole = buoyancy_wrench(density_above, volume, center_b, gravity_b)
     below = buoyancy_wrench(density_below, wet_volume, wet_center_b, gravity_b)
@@ -72,8 +89,27 @@ def righting_torque(
     """
     Return the torque of weight and buoyancy together about the reference point [N m].
 
-    (m r_G - rho V r_B) x g; Fossen (2021), restoring forces. Zero in the upright attitude. Mass
-    [kg] of shape (...), its centre [m] of shape (..., 3); others as in `buoyancy_wrench`.
+    (m r_G - rho V r_B) x g; Fossen (2021), restoring forces. Zero in the upright attitude.
+
+    Parameters
+    ----------
+    weight_mass
+        Mass of the body [kg], shape (...).
+    mass_center_b
+        Its centre from the reference point [m], body axes, shape (..., 3).
+    density
+        Of the medium [kg/m^3], shape (...).
+    volume
+        Displaced [m^3], shape (...).
+    center_b
+        Centre of the displaced volume from the reference point [m], body axes, shape (..., 3).
+    gravity_b
+        Acceleration of gravity (points down) [m/s^2], body axes, shape (..., 3).
+
+    Returns
+    -------
+    [N m], body axes, shape (..., 3).
+
     """
     gravity = vectors(gravity_b, 'gravity_b')
     lift = buoyancy_wrench(density, volume, center_b, gravity)[1]
@@ -83,7 +119,26 @@ def righting_torque(
 
 
 def wetted_share(wet_volume: ArrayLike, volume: ArrayLike) -> Array:
-    """Return s = V_wet / V in [0, 1], shape (...); rounding outside of it is taken off."""
+    """
+    Return s = V_wet / V in [0, 1]; rounding outside of it is taken off.
+
+    Parameters
+    ----------
+    wet_volume
+        Volume of the part under water [m^3], shape (...).
+    volume
+        Whole volume [m^3], shape (...).
+
+    Returns
+    -------
+    [-], shape (...).
+
+    Raises
+    ------
+    ConfigError
+        If the whole volume is not above zero.
+
+    """
     share: Array = np.clip(np.asarray(wet_volume) / positive(volume, 'volume [m^3]'), 0.0, 1.0)
     return share
 
@@ -101,11 +156,18 @@ def slamming_wrench(
     Parameters
     ----------
     matrix_slope
-        dA/ds, for A proportional to the wetted share the whole added-mass matrix, (..., 6, 6).
+        dA/ds, for A proportional to the wetted share the whole added-mass matrix, body axes,
+        shape (..., 6, 6).
     share_rate
         ds/dt [1/s], shape (...); positive on entry.
     v_rel_b, omega_b
-        Relative velocity [m/s] and angular velocity [rad/s], shape (..., 3).
+        Relative velocity of the reference point [m/s] and angular velocity [rad/s], body axes,
+        shape (..., 3).
+
+    Returns
+    -------
+    force_b, torque_b
+        [N], [N m] about the reference point, body axes, shape (..., 3) each.
 
     """
     linear, angular = momentum(

@@ -26,7 +26,28 @@ Area = Literal['lemma', 'true']
 
 
 def drag_area(axes: ArrayLike, v_rel_b: Array, area: Area) -> Array:
-    """Return the projected area that the drag uses [m^2], shape (...)."""
+    """
+    Return the projected area that the drag uses.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+    v_rel_b
+        Velocity relative to the medium, ellipsoid axes, shape (..., 3); only its direction counts.
+    area
+        ``lemma``: the engine's area; ``true``: the true projected area.
+
+    Returns
+    -------
+    [m^2], shape (...).
+
+    Raises
+    ------
+    ConfigError
+        For any other ``area``.
+
+    """
     match area:
         case 'lemma':
             return projected_area_mujoco(axes, v_rel_b)
@@ -80,10 +101,20 @@ def blunt_slender_drag(
 
 def swept_inertia(axes: ArrayLike) -> Array:
     """
-    Return I_D,i = 8 pi/15 r_i max(r_j, r_k)^4 [m^5], shape (..., 3).
+    Return I_D,i = 8 pi/15 r_i max(r_j, r_k)^4.
 
     Moment of inertia, per unit density, of the ellipsoid swept by a turn about axis i. MuJoCo,
     "Viscous drag".
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+
+    Returns
+    -------
+    About each axis [m^5], shape (..., 3).
+
     """
     r = positive_vectors(axes, 'semi-axes [m]')
     widest = np.maximum(np.roll(r, -1, axis=-1), np.roll(r, -2, axis=-1))
@@ -92,7 +123,24 @@ def swept_inertia(axes: ArrayLike) -> Array:
 
 
 def angular_moment(axes: ArrayLike, c_angular: ArrayLike, c_slender: ArrayLike) -> Array:
-    """Return C_angular I_D + C_slender (I_max - I_D) [m^5], shape (..., 3)."""
+    """
+    Return C_angular I_D + C_slender (I_max - I_D), the moment that the angular drag takes.
+
+    MuJoCo, "Viscous drag". The second part is 0 about the axis that sweeps most and large
+    about the long axis of a slender body.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+    c_angular, c_slender
+        Coefficients [-], shape (...); MuJoCo's defaults are 1.5 and 0.25.
+
+    Returns
+    -------
+    About each axis [m^5], shape (..., 3).
+
+    """
     swept = swept_inertia(axes)
     # The largest entry is 8 pi/15 r_mid r_max^4, the engine's I_max.
     largest = swept.max(axis=-1, keepdims=True)
@@ -143,6 +191,22 @@ def viscous_resistance(
 
     r_D = (r_x + r_y + r_z)/3, then as `sphere_resistance`; MuJoCo, "Viscous drag". Exact for a
     sphere at Re << 1. Dissipates, linear in the velocities.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+    v_rel_b, omega_b
+        Velocity relative to the medium [m/s] and angular velocity [rad/s], ellipsoid axes,
+        shape (..., 3).
+    viscosity
+        Dynamic, of the medium [Pa s], shape (...).
+
+    Returns
+    -------
+    force_b, torque_b
+        [N], [N m] about the centre, ellipsoid axes, shape (..., 3) each.
+
     """
     r = positive_vectors(axes, 'semi-axes [m]')
     return sphere_resistance(r.mean(axis=-1), v_rel_b, omega_b, viscosity)

@@ -38,7 +38,23 @@ class ElectricMotor:
                 raise ConfigError(f"motor '{name}': {value}; must be finite and above 0")
 
     def throttle(self, speed: float, torque: float) -> float:
-        """Return the throttle that holds a speed [rad/s] against a shaft torque [N m]."""
+        """
+        Return the throttle that holds a speed against a shaft torque.
+
+        Beard and McLain (2012), Small Unmanned Aircraft, supplement to section 4.3.
+
+        Parameters
+        ----------
+        speed
+            Of the shaft [rad/s].
+        torque
+            That the load resists with [N m].
+
+        Returns
+        -------
+        [-]; above 1 the motor cannot hold the speed.
+
+        """
         current = torque / self.torque_constant + self.no_load_current
         voltage = self.resistance * current + self.torque_constant * speed
         return voltage / self.max_voltage

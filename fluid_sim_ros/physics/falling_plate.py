@@ -75,7 +75,20 @@ def falling_plate_rhs(_time: float, state: Array, params: PlateParams) -> Array:
 
 
 def fixed_point_speeds(params: PlateParams) -> tuple[float, float]:
-    """Return the speeds of steady edge-on and broadside descent, sqrt(pi/(A -+ B)) [-]."""
+    """
+    Return the speeds of steady edge-on and broadside descent, sqrt(pi/(A -+ B)).
+
+    Parameters
+    ----------
+    params
+        See `PlateParams`; A > B.
+
+    Returns
+    -------
+    edge_on, broadside
+        [-], in units of U.
+
+    """
     edge_on = np.sqrt(np.pi / (params.a_drag - params.b_drag))
     broadside = np.sqrt(np.pi / (params.a_drag + params.b_drag))
     return float(edge_on), float(broadside)

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.added_mass import added_mass_coriolis, matrix6
+from fluid_sim_ros.physics.added_mass import added_mass_coriolis
 from fluid_sim_ros.physics.arrays import Array, vectors
+from fluid_sim_ros.physics.matrix6 import matrix6
 
 
 class CrossTerm(NamedTuple):
@@ -27,7 +28,18 @@ class CrossTerm(NamedTuple):
 
 def linear_damping_matrix(values: ArrayLike, name: str = 'linear_damping') -> Array:
     """
-    Return D_lin from 6 or 36 numbers, row by row [N s/m], [N s], [N m s].
+    Return D_lin from 6 or 36 numbers.
+
+    Parameters
+    ----------
+    values
+        The diagonal, or all numbers row by row: [N s/m], [N s], [N m s].
+    name
+        What the value is called in an error.
+
+    Returns
+    -------
+    About the reference point, body axes, shape (6, 6).
 
     Raises
     ------
@@ -44,7 +56,18 @@ def linear_damping_matrix(values: ArrayLike, name: str = 'linear_damping') -> Ar
 
 def quadratic_damping_matrix(values: ArrayLike, name: str = 'quadratic_damping') -> Array:
     """
-    Return D_q from 6 or 36 numbers, row by row; entry (i, j) multiplies |nu_j| nu_j.
+    Return D_q from 6 or 36 numbers; entry (i, j) multiplies |nu_j| nu_j.
+
+    Parameters
+    ----------
+    values
+        The diagonal, or all numbers row by row: [N s^2/m^2], [N s^2/m], [N s^2], [N m s^2].
+    name
+        What the value is called in an error.
+
+    Returns
+    -------
+    About the reference point, body axes, shape (6, 6).
 
     Raises
     ------
@@ -94,7 +117,20 @@ def cross_damping_wrench(terms: Sequence[CrossTerm], nu: ArrayLike) -> Array:
     """
     Return the sum of -coef |nu_a| nu_b into each row, for terms such as Y_|v|r or N_|v|r.
 
-    Odd in nu. Not dissipative in general: fitted coefficients. Shapes as in `damping_wrench`.
+    Odd in nu. Not dissipative in general: fitted coefficients.
+
+    Parameters
+    ----------
+    terms
+        The terms; coefficients in SI units, of the sign of a resistance.
+    nu
+        Velocity relative to the medium [m/s] and angular velocity [rad/s], body axes,
+        shape (..., 6).
+
+    Returns
+    -------
+    Force [N] and torque [N m] about the reference point, body axes, shape (..., 6).
+
     """
     nu = vectors(nu, 'nu', 6)
     wrench = np.zeros_like(nu)
@@ -117,7 +153,11 @@ def without_convection(terms: Sequence[CrossTerm], matrix: ArrayLike) -> list[Cr
     terms
         Totals, each with two different velocities; a pair of them once in a row.
     matrix
-        A about the reference point, shape (6, 6).
+        A about the reference point, body axes, shape (6, 6).
+
+    Returns
+    -------
+    The terms that are left, in the same order.
 
     """
     rest = []
@@ -140,7 +180,18 @@ def secant_damping(d_linear: ArrayLike, d_quadratic: ArrayLike, nu: ArrayLike) -
     exact in form for pure quadratic drag (v' = v/(1 + h D |v|/m)). The symmetric part keeps the
     power, nu . D_s nu >= nu . D nu; negative eigenvalues are set to 0 (never less damping).
 
-    Parameters and shapes as in `damping_wrench`; returns shape (..., 6, 6).
+    Parameters
+    ----------
+    d_linear, d_quadratic
+        About the reference point, body axes, shape (..., 6, 6).
+    nu
+        Velocity relative to the medium [m/s] and angular velocity [rad/s], body axes,
+        shape (..., 6).
+
+    Returns
+    -------
+    D_s: [N s/m], [N s], [N m s], shape (..., 6, 6).
+
     """
     nu = vectors(nu, 'nu', 6)
     scaled = np.asarray(d_quadratic, dtype=np.float64) * np.abs(nu)[..., np.newaxis, :]

@@ -58,7 +58,23 @@ def ellipsoid_cut(axes: ArrayLike, up_b: ArrayLike, height: ArrayLike) -> Cut:
 
 
 def box_cut(half: ArrayLike, up_b: ArrayLike, height: float) -> Cut:
-    """Return the part of a box under the surface; half-lengths [m], shape (3,); exact."""
+    """
+    Return the part of a box under the surface, exactly.
+
+    Parameters
+    ----------
+    half
+        Half-lengths [m], shape (3,); the origin is the centre.
+    up_b
+        Unit normal of the surface, box axes, shape (3,).
+    height
+        Of the surface above the centre [m].
+
+    Returns
+    -------
+    See `Cut`.
+
+    """
     return polyhedron_cut(*box_mesh(half), up_b, height)
 
 

@@ -119,8 +119,23 @@ def inertia_box_viscous(
     """
     Return the Stokes resistance of the sphere equivalent to a box, r_eq = (r_x + r_y + r_z)/3.
 
-    MuJoCo, "Inertia model". Arguments as in `inertia_box_drag` and `sphere_resistance`.
-    Dissipates, odd in the velocities.
+    MuJoCo, "Inertia model". Dissipates, odd in the velocities.
+
+    Parameters
+    ----------
+    half_b
+        Half-lengths of the box [m], shape (..., 3).
+    v_rel_b, omega_b
+        Velocity of the centre of mass relative to the medium [m/s] and angular velocity [rad/s],
+        principal axes, shape (..., 3).
+    viscosity
+        Dynamic, of the medium [Pa s], shape (...).
+
+    Returns
+    -------
+    force_b, torque_b
+        [N], [N m] about the centre of mass, principal axes, shape (..., 3) each.
+
     """
     half = positive_vectors(half_b, 'half-lengths [m]')
     return sphere_resistance(half.mean(axis=-1), v_rel_b, omega_b, viscosity)
@@ -135,9 +150,24 @@ def inertia_box_wrench(
     viscosity: ArrayLike,
 ) -> dict[str, Wrench]:
     """
-    Return the terms of the inertia model: ``drag`` and ``viscous``, each (force_b, torque_b).
+    Return the terms of the inertia model: ``drag`` and ``viscous``.
 
-    Point: centre of mass; axes: principal axes; arguments as in `inertia_box_drag`.
+    MuJoCo, "Inertia model".
+
+    Parameters
+    ----------
+    half_b
+        Half-lengths of the box [m], shape (..., 3).
+    v_rel_b, omega_b
+        Velocity of the centre of mass relative to the medium [m/s] and angular velocity [rad/s],
+        principal axes, shape (..., 3).
+    density, viscosity
+        Of the medium [kg/m^3] and dynamic [Pa s], shape (...).
+
+    Returns
+    -------
+    Term -> (force_b [N], torque_b [N m]) about the centre of mass, principal axes, shape (..., 3).
+
     """
     return {
         'drag': inertia_box_drag(half_b, v_rel_b, omega_b, density),

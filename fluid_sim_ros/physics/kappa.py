@@ -28,7 +28,19 @@ _LOG_ABOVE = 26.0  # E decays like exp(-3 t / 2): exp(-39) is below rounding
 
 
 def ellipsoid_volume(axes: ArrayLike) -> Array:
-    """Return V = 4 pi r_x r_y r_z / 3 [m^3], shape (...)."""
+    """
+    Return V = 4 pi r_x r_y r_z / 3, the volume of an ellipsoid.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+
+    Returns
+    -------
+    [m^3], shape (...).
+
+    """
     volume: Array = 4.0 / 3.0 * np.pi * positive_vectors(axes, 'semi-axes [m]').prod(axis=-1)
     return volume
 

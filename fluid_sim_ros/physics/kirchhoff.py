@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
-from fluid_sim_ros.physics.added_mass import added_mass_coriolis, momentum, shift_reference_point
+from fluid_sim_ros.physics.added_mass import added_mass_coriolis, momentum
 from fluid_sim_ros.physics.arrays import Array, positive, vectors
+from fluid_sim_ros.physics.matrix6 import shift_reference_point
 
 BodyWrench = Callable[
     [float, Array], Array
@@ -22,7 +23,19 @@ BodyWrench = Callable[
 
 
 def rotation_wb(quat_wb_wxyz: ArrayLike) -> Array:
-    """Return the rotation matrix body -> world of a quaternion of any length, shape (3, 3)."""
+    """
+    Return the rotation matrix body -> world of a quaternion.
+
+    Parameters
+    ----------
+    quat_wb_wxyz
+        Quaternion body -> world, w first, any length but 0, shape (4,).
+
+    Returns
+    -------
+    Turns components in body axes into components in world axes, shape (3, 3).
+
+    """
     w, x, y, z = (q := np.asarray(quat_wb_wxyz, dtype=np.float64)) / np.linalg.norm(q)
     return np.array(
         [
@@ -146,7 +159,23 @@ def kirchhoff_motion(
 def kinetic_energy(
     state: Array, total_matrix: ArrayLike, flow_w: ArrayLike = (0.0, 0.0, 0.0)
 ) -> float:
-    """Return T = nu_rel . M nu_rel / 2 [J] of body and fluid, in the frame of the current."""
+    """
+    Return T = nu_rel . M nu_rel / 2 of body and fluid, in the frame of the current.
+
+    Parameters
+    ----------
+    state
+        See the head of this file, shape (13,).
+    total_matrix
+        M = rigid body plus added mass about the reference point, body axes, shape (6, 6).
+    flow_w
+        Velocity of the uniform current [m/s], world axes, shape (3,).
+
+    Returns
+    -------
+    [J].
+
+    """
     v_rel = state[7:10] - rotation_wb(state[3:7]).T @ vectors(flow_w, 'flow_w')
     linear, angular = momentum(total_matrix, v_rel, state[10:13])
     return float(0.5 * (linear @ v_rel + angular @ state[10:13]))
@@ -156,10 +185,27 @@ def impulses(
     time: float, state: Array, total_matrix: ArrayLike, flow_w: ArrayLike = (0.0, 0.0, 0.0)
 ) -> tuple[Array, Array]:
     """
-    Return linear [N s] and angular [N m s] impulse of body and fluid, world axes.
+    Return the linear and the angular impulse of body and fluid.
 
     P = R p and L = R l + x x P; both about the world origin, in the frame that moves with the
     current (x - u t). Constant without outer forces.
+
+    Parameters
+    ----------
+    time
+        [s].
+    state
+        See the head of this file, shape (13,).
+    total_matrix
+        M = rigid body plus added mass about the reference point, body axes, shape (6, 6).
+    flow_w
+        Velocity of the uniform current [m/s], world axes, shape (3,).
+
+    Returns
+    -------
+    linear_w, angular_w
+        [N s] and [N m s], world axes, shape (3,) each.
+
     """
     flow = vectors(flow_w, 'flow_w')
     rotation = rotation_wb(state[3:7])

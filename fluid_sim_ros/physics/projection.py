@@ -14,7 +14,19 @@ from fluid_sim_ros.physics.arrays import Array, norm, positive_vectors, unit_or_
 
 
 def principal_areas(axes: ArrayLike) -> Array:
-    """Return a_i = r_j r_k [m^2], shape (..., 3): projected areas along the axes, over pi."""
+    """
+    Return a_i = r_j r_k: the projected areas along the axes, over pi.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+
+    Returns
+    -------
+    [m^2], shape (..., 3).
+
+    """
     r = positive_vectors(axes, 'semi-axes [m]')
     areas: Array = np.roll(r, -1, axis=-1) * np.roll(r, -2, axis=-1)
     return areas
@@ -50,7 +62,18 @@ def projected_area_mujoco(axes: ArrayLike, direction_b: ArrayLike) -> Array:
 
     A = pi sqrt(sum a_i^4 u_i^2 / sum a_i^2 u_i^2), a_i = r_j r_k; MuJoCo, "Ellipsoid projection".
     Never below the true area, and equal to it along the axes. A zero direction has area 0.
-    Arguments as in `projected_area`.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+    direction_b
+        Direction of projection, any length, ellipsoid axes, shape (..., 3).
+
+    Returns
+    -------
+    [m^2], shape (...).
+
     """
     unit = unit_or_zero(vectors(direction_b, 'direction_b'))
     areas = principal_areas(axes)
@@ -63,7 +86,19 @@ def projected_area_mujoco(axes: ArrayLike, direction_b: ArrayLike) -> Array:
 
 
 def max_projected_area(axes: ArrayLike) -> Array:
-    """Return A_max = pi r_max r_mid [m^2], shape (...), as the engine has it."""
+    """
+    Return A_max = pi r_max r_mid, as the engine has it.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+
+    Returns
+    -------
+    [m^2], shape (...).
+
+    """
     area: Array = np.pi * principal_areas(axes).max(axis=-1)
     return area
 
@@ -73,8 +108,20 @@ def section_normal(axes: ArrayLike, v_rel_b: ArrayLike) -> Array:
     Return the unit normal n_s of the cross-section that casts the shadow along v.
 
     n_s ~ (r_y r_z / r_x v_x, r_z r_x / r_y v_y, r_x r_y / r_z v_z) ~ a_i^2 v_i; MuJoCo, "Kutta
-    condition". Shape (..., 3); zero for v = 0. Parallel to v exactly when v is a principal axis
+    condition". Zero for v = 0. Parallel to v exactly when v is a principal axis
     of the section.
+
+    Parameters
+    ----------
+    axes
+        Semi-axes [m], shape (..., 3).
+    v_rel_b
+        Velocity relative to the medium, any length, ellipsoid axes, shape (..., 3).
+
+    Returns
+    -------
+    [-], ellipsoid axes, shape (..., 3).
+
     """
     v = unit_or_zero(vectors(v_rel_b, 'v_rel_b'))
     areas = principal_areas(axes)

@@ -1,9 +1,9 @@
 """
-Rotors and propellers: thrust and shaft torque, command, lag, the ground and the free surface.
+Rotors and propellers: thrust and shaft torque, command and lag.
 
-The twin of ``fluid_sim.thruster``. Speeds omega [rad/s] and revolutions n = omega/(2 pi) [1/s]
-are signed; thrust is positive along the thrust axis, inflow V [m/s] is the velocity of the rotor
-along that axis relative to the fluid.
+With `rotor_effects` the twin of ``fluid_sim.thruster``. Speeds omega [rad/s] and revolutions
+n = omega/(2 pi) [1/s] are signed; thrust is positive along the thrust axis, inflow V [m/s] is the
+velocity of the rotor along that axis relative to the fluid.
 """
 
 import numpy as np
@@ -18,6 +18,20 @@ def advance_ratio(inflow: ArrayLike, omega: ArrayLike, diameter: ArrayLike) -> A
     Return J = V/(n D) [-]; infinite for a rotor at rest in a flow, 0 for no flow.
 
     For charts only: forces are written without it, see `propeller_load`.
+
+    Parameters
+    ----------
+    inflow
+        V along the thrust axis relative to the medium [m/s], shape (...).
+    omega
+        Speed of the rotor [rad/s], shape (...).
+    diameter
+        D [m], above 0, shape (...).
+
+    Returns
+    -------
+    [-], shape (...).
+
     """
     v, turns = np.asarray(inflow, dtype=np.float64), np.asarray(omega) / (2 * np.pi)
     step = turns * positive(diameter, 'diameter [m]')
@@ -27,13 +41,41 @@ def advance_ratio(inflow: ArrayLike, omega: ArrayLike, diameter: ArrayLike) -> A
 
 
 def quadratic_thrust(omega: ArrayLike, forward: ArrayLike, reverse: ArrayLike) -> Array:
-    """Return k omega|omega| [N] with k for each direction [N/(rad/s)^2]; rising in omega."""
+    """
+    Return the thrust k omega|omega| at rest, with a k for each direction; rising in omega.
+
+    Parameters
+    ----------
+    omega
+        Speed of the rotor [rad/s], shape (...).
+    forward, reverse
+        k for omega > 0 and omega < 0 [N/(rad/s)^2], shape (...).
+
+    Returns
+    -------
+    [N] along the thrust axis, shape (...).
+
+    """
     w = np.asarray(omega, dtype=np.float64)
     return np.where(w < 0, reverse, forward) * w * np.abs(w)
 
 
 def quadratic_speed(thrust: ArrayLike, forward: ArrayLike, reverse: ArrayLike) -> Array:
-    """Return omega [rad/s] that gives a thrust [N] at rest: the inverse of `quadratic_thrust`."""
+    """
+    Return the speed that gives a thrust at rest: the inverse of `quadratic_thrust`.
+
+    Parameters
+    ----------
+    thrust
+        [N] along the thrust axis, shape (...).
+    forward, reverse
+        k for thrust > 0 and thrust < 0 [N/(rad/s)^2], shape (...).
+
+    Returns
+    -------
+    [rad/s], shape (...).
+
+    """
     f = np.asarray(thrust, dtype=np.float64)
     speed: Array = np.sign(f) * np.sqrt(np.abs(f) / np.where(f < 0, reverse, forward))
     return speed
@@ -145,110 +187,27 @@ def lagged_speed(
 
 
 def pulse_thrust(pulse: ArrayLike, table: ArrayLike) -> Array:
-    """Return thrust [N] by linear interpolation of (pulse [us], thrust [N]) rows, shape (n, 2)."""
+    """
+    Return the thrust at a pulse width, by linear interpolation; constant beyond the ends.
+
+    Parameters
+    ----------
+    pulse
+        Pulse width [us], shape (...).
+    table
+        Rows (pulse [us], thrust [N]), pulses rising strictly, shape (n, 2).
+
+    Returns
+    -------
+    [N], shape (...).
+
+    Raises
+    ------
+    ConfigError
+        If the table has another shape or its pulses do not rise.
+
+    """
     rows = np.asarray(table, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != 2 or not np.all(np.diff(rows[:, 0]) > 0):
         raise ConfigError('table: allowed: rows (pulse, thrust) with rising pulse, shape (n, 2)')
     return np.interp(np.asarray(pulse, dtype=np.float64), rows[:, 0], rows[:, 1])
-
-
-def ground_effect_factor(
-    height: ArrayLike, radius: ArrayLike, strength: float | None = None
-) -> Array:
-    """
-    Return thrust near the ground over thrust far from it, at the same speed.
-
-    1/(1 - (R/4z)^2), Cheeseman and Bennett (1955), ARC R&M 3021; with ``strength`` C the form
-    1 + C (R/4z)^2 of fitted models (Panerati et al. 2021, IROS, for small quadrotors). Held at its
-    value of z = R/2 below that.
-
-    Parameters
-    ----------
-    height
-        z of the rotor above the ground, along its wake [m], shape (...).
-    radius
-        R [m], shape (...).
-    strength
-        C [-], or None for Cheeseman and Bennett.
-
-    """
-    r = positive(radius, 'radius [m]')
-    square = (r / (4 * np.maximum(height, 0.5 * r))) ** 2
-    factor: Array = 1 / (1 - square) if strength is None else 1 + strength * square
-    return factor
-
-
-def disc_share(depth: ArrayLike, radius: ArrayLike, axis_z: ArrayLike) -> Array:
-    """
-    Return the share of a rotor disc below a level surface [-].
-
-    Circular segment, 1/2 + (p sqrt(1 - p^2) + asin p)/pi with p = depth/(R sqrt(1 - a_z^2)) in
-    -1..1. A disc within 0.1 rad of level counts as tilted by that, so that it does not leap.
-
-    Parameters
-    ----------
-    depth
-        Of the centre below the surface [m], shape (...).
-    radius
-        R [m], shape (...).
-    axis_z
-        Vertical component of the unit axis [-], shape (...).
-
-    """
-    tilt = np.maximum(np.sqrt(np.maximum(1 - np.square(axis_z), 0)), 0.1)
-    p = np.clip(np.asarray(depth) / (positive(radius, 'radius [m]') * tilt), -1, 1)
-    share: Array = 0.5 + (p * np.sqrt(1 - p**2) + np.arcsin(p)) / np.pi
-    return share
-
-
-def rotor_drag(
-    omega: ArrayLike,
-    v_rel_b: ArrayLike,
-    axis_b: ArrayLike,
-    *,
-    across: float,
-    along: float = 0.0,
-    rolling: float = 0.0,
-    spin: float = 1.0,
-) -> tuple[Array, Array]:
-    """
-    Return drag and rolling moment of a rigid rotor in edgewise flow (no flapping).
-
-    f = -|omega| (k v_across + k_z v_along), Martin and Salaun (2010), ICRA;
-    m = -omega s c v_across, Furrer et al. (2016), RotorS. Dissipative: f . v <= 0; zero at
-    rest.
-
-    Parameters
-    ----------
-    omega
-        [rad/s], shape (...).
-    v_rel_b, axis_b
-        Velocity relative to the fluid [m/s] and unit thrust axis, any one frame, shape (..., 3).
-    across, along
-        k and k_z [N/((rad/s)(m/s))].
-    rolling
-        c [N m/((rad/s)(m/s))].
-    spin
-        s: +1 where a positive speed turns about the thrust axis (counter-clockwise seen against
-        it), -1 the other way.
-
-    """
-    v, a = vectors(v_rel_b, 'v_rel_b'), vectors(axis_b, 'axis_b')
-    w = np.asarray(omega, dtype=np.float64)[..., np.newaxis]
-    v_along = np.sum(v * a, axis=-1, keepdims=True) * a
-    v_across = v - v_along
-    return -np.abs(w) * (across * v_across + along * v_along), -w * spin * rolling * v_across
-
-
-def gyroscopic_torque(
-    omega: ArrayLike, omega_b: ArrayLike, axis_b: ArrayLike, *, inertia: float, spin: float = 1.0
-) -> Array:
-    """
-    Return -omega_b x (J s omega a) [N m]: what a rotor's angular momentum does to a turning body.
-
-    Euler's equation with a rotor of inertia J [kg m^2] about its axis; no work on the body.
-    ``omega`` [rad/s] of the rotor relative to the body, ``omega_b`` [rad/s] and unit ``axis_b`` in
-    body axes, shape (..., 3). The reaction of spinning up, -J s domega/dt a, acts along the axis.
-    """
-    momentum = inertia * spin * np.asarray(omega)[..., np.newaxis] * vectors(axis_b, 'axis_b')
-    return -np.cross(vectors(omega_b, 'omega_b'), momentum)

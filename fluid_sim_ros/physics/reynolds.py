@@ -85,11 +85,32 @@ def terminal_speed_combined(
     viscosity: ArrayLike,
 ) -> Array:
     """
-    Return the speed at which Stokes and quadratic drag together carry the weight [m/s].
+    Return the speed at which Stokes and quadratic drag together carry the weight.
 
     W = b v + k v^2 with b = 6 pi beta r and k = rho K; v = 2 W / (b + sqrt(b^2 + 4 k W)), the form
-    of the root that does not cancel. Tends to the two others for k -> 0 and b -> 0. Arguments as
-    in `terminal_speed_stokes` and `terminal_speed_quadratic`; b = k = 0 is refused there.
+    of the root that does not cancel. Tends to `terminal_speed_stokes` for k -> 0 and to
+    `terminal_speed_quadratic` for b -> 0.
+
+    Parameters
+    ----------
+    weight
+        W, less the buoyancy [N], shape (...).
+    radius
+        r of the equivalent sphere [m], shape (...).
+    drag_area
+        K [m^2] of the quadratic drag rho K v^2, shape (...).
+    density, viscosity
+        Of the medium [kg/m^3] and dynamic [Pa s], shape (...).
+
+    Returns
+    -------
+    [m/s], shape (...).
+
+    Raises
+    ------
+    ConfigError
+        If a number is out of range, or nothing resists (b = k = 0).
+
     """
     w = np.asarray(weight, dtype=np.float64)
     linear = 6.0 * np.pi * not_negative(viscosity, 'viscosity [Pa s]') * positive(radius, 'radius')
@@ -105,7 +126,17 @@ def sphere_cd_brown_lawler(reynolds: ArrayLike) -> Array:
     Return the drag coefficient of a smooth sphere, on 1/2 rho v^2 and the projected area.
 
     Cd = 24/Re (1 + 0.15 Re^0.681) + 0.407/(1 + 8710/Re); Brown and Lawler (2003), J. Environ. Eng.
-    129:222. For 0 < Re < 2e5: no drag crisis. Re by the diameter, shape (...).
+    129:222. For 0 < Re < 2e5: no drag crisis.
+
+    Parameters
+    ----------
+    reynolds
+        Re by the diameter [-], above 0, shape (...).
+
+    Returns
+    -------
+    [-], shape (...).
+
     """
     re = positive(reynolds, 'Re')
     cd: Array = 24.0 / re * (1.0 + 0.15 * re**0.681) + 0.407 * re / (re + 8710.0)
@@ -117,7 +148,17 @@ def blunt_coefficient(reynolds: ArrayLike) -> Array:
     Return C_blunt(Re) = (Cd(Re) - 24/Re)/2 [-], the coefficient to use beside the Stokes term.
 
     The part 24/Re of the curve is the Stokes resistance, which `viscous_resistance` applies; the
-    half is because MuJoCo's drag has no 1/2. Cd of Brown and Lawler; Re > 0, shape (...).
+    half is because MuJoCo's drag has no 1/2. Cd as in `sphere_cd_brown_lawler`.
+
+    Parameters
+    ----------
+    reynolds
+        Re by the diameter [-], above 0, shape (...).
+
+    Returns
+    -------
+    [-], shape (...).
+
     """
     re = positive(reynolds, 'Re')
     coefficient: Array = 0.5 * (3.6 * re**-0.319 + 0.407 * re / (re + 8710.0))

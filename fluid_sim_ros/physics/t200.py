@@ -41,11 +41,26 @@ FULL_SPEED = ((51.4, 3533.0), (39.9, 3465.0))
 
 def t200_table(voltage: float) -> Array:
     """
-    Return rows (pulse [us], thrust [N]) of the static curve, shape (18, 2).
+    Return the static curve of thrust against pulse width.
 
     Full thrust and dead zone are the sheet's at 10, 12, ... 20 V and linear between; the shape in
     between is that of the 14 V sheet at every voltage (a pure square is up to 15 % of full thrust
-    off). Continuous, never falling, zero in the dead zone. Raises `ConfigError` outside 10..20 V.
+    off). Continuous, never falling, zero in the dead zone.
+
+    Parameters
+    ----------
+    voltage
+        Of the supply, 10 to 20 [V].
+
+    Returns
+    -------
+    Rows (pulse [us], thrust [N]), pulses rising, shape (18, 2).
+
+    Raises
+    ------
+    ConfigError
+        Outside 10 to 20 V.
+
     """
     volts = sorted(SUPPLIES)
     if not volts[0] <= voltage <= volts[-1]:

@@ -20,27 +20,79 @@ Faces = NDArray[np.int64]
 
 
 def sphere_volume(radius: ArrayLike) -> Array:
-    """Return 4 pi r^3 / 3 [m^3] for radii [m], shape (...)."""
+    """
+    Return 4 pi r^3 / 3, the volume of a sphere.
+
+    Parameters
+    ----------
+    radius
+        r [m], above 0, shape (...).
+
+    Returns
+    -------
+    [m^3], shape (...).
+
+    """
     volume: Array = 4.0 / 3.0 * np.pi * positive(radius, 'radius [m]') ** 3
     return volume
 
 
 def capsule_volume(radius: ArrayLike, half_length: ArrayLike) -> Array:
-    """Return pi r^2 (2 h + 4 r / 3) [m^3]; h is half the cylindrical part, as in MJCF, (...)."""
+    """
+    Return pi r^2 (2 h + 4 r / 3), the volume of a capsule.
+
+    Parameters
+    ----------
+    radius
+        r [m], above 0, shape (...).
+    half_length
+        h, half the length of the cylindrical part, as in MJCF [m], above 0, shape (...).
+
+    Returns
+    -------
+    [m^3], shape (...).
+
+    """
     r, h = positive(radius, 'radius [m]'), positive(half_length, 'half-length [m]')
     volume: Array = np.pi * r**2 * (2.0 * h + 4.0 / 3.0 * r)
     return volume
 
 
 def cylinder_volume(radius: ArrayLike, half_length: ArrayLike) -> Array:
-    """Return 2 pi r^2 h [m^3], shape (...)."""
+    """
+    Return 2 pi r^2 h, the volume of a cylinder.
+
+    Parameters
+    ----------
+    radius
+        r [m], above 0, shape (...).
+    half_length
+        h, half the length, as in MJCF [m], above 0, shape (...).
+
+    Returns
+    -------
+    [m^3], shape (...).
+
+    """
     r, h = positive(radius, 'radius [m]'), positive(half_length, 'half-length [m]')
     volume: Array = 2.0 * np.pi * r**2 * h
     return volume
 
 
 def box_volume(half: ArrayLike) -> Array:
-    """Return 8 h_x h_y h_z [m^3] for half-lengths [m] of shape (..., 3)."""
+    """
+    Return 8 h_x h_y h_z, the volume of a box.
+
+    Parameters
+    ----------
+    half
+        Half-lengths h [m], above 0, shape (..., 3).
+
+    Returns
+    -------
+    [m^3], shape (...).
+
+    """
     volume: Array = 8.0 * positive_vectors(half, 'half-lengths [m]').prod(axis=-1)
     return volume
 
@@ -81,7 +133,27 @@ def mesh_volume(vertices_b: ArrayLike, faces: ArrayLike) -> tuple[float, Array]:
 
 
 def checked_mesh(vertices_b: ArrayLike, faces: ArrayLike) -> tuple[Array, Faces]:
-    """Return a mesh as arrays, or raise a `ConfigError` when it is not closed."""
+    """
+    Return a closed mesh as arrays.
+
+    Parameters
+    ----------
+    vertices_b
+        Corner points [m], body axes, shape (n, 3).
+    faces
+        Corners of each triangle, counter-clockwise seen from outside, shape (m, 3).
+
+    Returns
+    -------
+    vertices_b, faces
+        The same, as arrays of numbers and of whole numbers.
+
+    Raises
+    ------
+    ConfigError
+        If the mesh is open, or an edge is not met once in each direction.
+
+    """
     vertices = vectors(vertices_b, 'vertices [m]')
     triangles: Faces = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
@@ -94,7 +166,21 @@ def checked_mesh(vertices_b: ArrayLike, faces: ArrayLike) -> tuple[Array, Faces]
 
 
 def box_mesh(half: ArrayLike) -> tuple[Array, Faces]:
-    """Return corners (8, 3) and outward triangles (12, 3) of a box of given half-lengths [m]."""
+    """
+    Return a box as a closed mesh.
+
+    Parameters
+    ----------
+    half
+        Half-lengths [m], above 0, shape (3,).
+
+    Returns
+    -------
+    vertices_b, faces
+        Corners [m], shape (8, 3), and triangles, counter-clockwise seen from outside, shape (12,
+        3).
+
+    """
     h = positive_vectors(half, 'half-lengths [m]')
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

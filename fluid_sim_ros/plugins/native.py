@@ -74,6 +74,19 @@ class Native:
     ``beyond_grids(model, data, point, out) -> int`` writes how far a point lies beyond the ends of
     the current's and the wind's grid (t, x, y, z each) and returns 1 if it does. See
     plugins/src/api/ for their meaning.
+
+    Parameters
+    ----------
+    library
+        The loaded plugin library.
+
+    Attributes
+    ----------
+    terms, thruster_values
+        See ``TERMS`` and ``THRUSTER_VALUES``.
+    columns
+        Blocks of an observation row by name; ``terms`` holds six columns for each term.
+
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
@@ -143,7 +156,15 @@ class Native:
         self.columns = _columns(library.fsr_columns)
 
     def plugin_keys(self, plugin: str) -> tuple[str, ...]:
-        """Return the configuration keys of a plugin, empty for one that is not known."""
+        """
+        Return the configuration keys of a plugin, empty for one that is not known.
+
+        Parameters
+        ----------
+        plugin
+            Name of the plugin, such as ``fluid_sim.body``.
+
+        """
         keys: list[str] = []
         while (key := self._plugin_key(plugin.encode(), len(keys))) is not None:
             keys.append(key.decode())
@@ -187,7 +208,7 @@ class Native:
 @cache
 def native() -> Native:
     """
-    Load the plugin library (once) and return its C functions.
+    Return the library's C functions; the library is loaded once.
 
     Raises
     ------

@@ -6,17 +6,19 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.added_mass import (
     accelerating_flow_wrench,
     added_mass_coriolis,
-    added_mass_matrix,
     added_mass_wrench,
     ellipsoid_added_mass_wrench,
-    frd_to_flu_matrix,
-    matrix6,
     momentum,
     relative_acceleration,
+)
+from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
+from fluid_sim_ros.physics.matrix6 import (
+    added_mass_matrix,
+    frd_to_flu_matrix,
+    matrix6,
     rotate_matrix6,
     shift_reference_point,
 )
-from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
 from test.support.strategies import positive_matrix, rotation, seeds, vectors
 
 

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from fluid_sim_ros.physics.added_mass import rotate_matrix6, shift_reference_point
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
 from fluid_sim_ros.physics.kirchhoff import (
     impulses,
@@ -11,6 +10,7 @@ from fluid_sim_ros.physics.kirchhoff import (
     rigid_body_matrix,
     rotation_wb,
 )
+from fluid_sim_ros.physics.matrix6 import rotate_matrix6, shift_reference_point
 from test.support.strategies import positive_matrix, rotation
 
 START = np.array([0.3, -0.2, 0.1, 0.8, 0.2, -0.4, 0.4, 1.0, 0.5, 0.3, 1.0, 2.0, 1.5])

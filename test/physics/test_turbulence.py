@@ -14,15 +14,17 @@ from fluid_sim_ros.physics.environment.coloured_noise import (
     stationary_covariance,
 )
 from fluid_sim_ros.physics.environment.turbulence import (
-    FOOT,
     angular_rate_spectra,
     dryden_covariance,
     dryden_spectra,
     turbulence_filters,
-    turbulence_intensity,
-    turbulence_length,
     turbulence_modes,
     von_karman_spectra,
+)
+from fluid_sim_ros.physics.environment.turbulence_scales import (
+    FOOT,
+    turbulence_intensity,
+    turbulence_length,
 )
 
 LENGTH, AIRSPEED = np.array([180.0, 150.0, 40.0]), 15.0

@@ -6,14 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
-from fluid_sim_ros.physics.environment.waves import (
+from fluid_sim_ros.physics.environment.wave_dispersion import (
     breaking_height,
     dispersion_wavenumber,
-    regular_waves,
-    wave_flow,
-    wave_surface,
 )
+from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
+from fluid_sim_ros.physics.environment.waves import regular_waves, wave_flow, wave_surface
 from test.support.strategies import floats
 
 G = 9.81

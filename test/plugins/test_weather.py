@@ -12,7 +12,8 @@ from fluid_sim_ros.physics.environment.coloured_noise import (
     noise_samples,
     noise_stream,
 )
-from fluid_sim_ros.physics.environment.turbulence import turbulence_filters, turbulence_intensity
+from fluid_sim_ros.physics.environment.turbulence import turbulence_filters
+from fluid_sim_ros.physics.environment.turbulence_scales import turbulence_intensity
 from fluid_sim_ros.plugins.native import native
 from test.support.plugin_models import (
     body_plugin,

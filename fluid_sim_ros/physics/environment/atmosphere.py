@@ -19,16 +19,40 @@ _TROPOPAUSE_PRESSURE = PRESSURE * math.pow(_AT_TROPOPAUSE, _EXPONENT)
 
 
 def standard_temperature(altitude: float) -> float:
-    """Return the temperature [K] of the standard atmosphere at a geometric altitude [m]."""
+    """
+    Return the temperature of the standard atmosphere.
+
+    ISO 2533: T = T0 + L h with the lapse rate L up to 11 km (geopotential), constant above.
+
+    Parameters
+    ----------
+    altitude
+        Geometric, above mean sea level [m].
+
+    Returns
+    -------
+    [K].
+
+    """
     return TEMPERATURE + LAPSE * min(_geopotential(altitude), TROPOPAUSE)
 
 
 def standard_pressure(altitude: float) -> float:
     """
-    Return the pressure [Pa] of the standard atmosphere at a geometric altitude [m].
+    Return the pressure of the standard atmosphere.
 
     ISO 2533: p = p0 (T/T0)^(-g/(R L)) with the lapse rate L up to 11 km, and exponential in the
     isothermal layer above. Beyond 20 km (geopotential) the layer is continued.
+
+    Parameters
+    ----------
+    altitude
+        Geometric, above mean sea level [m].
+
+    Returns
+    -------
+    [Pa].
+
     """
     height = _geopotential(altitude)
     if height <= TROPOPAUSE:
@@ -39,9 +63,19 @@ def standard_pressure(altitude: float) -> float:
 
 def pressure_altitude(pressure: float) -> float:
     """
-    Return the geometric altitude [m] at which the standard troposphere has a pressure [Pa].
+    Return the geometric altitude at which the standard troposphere has a pressure.
 
     The inverse of ``standard_pressure`` below 11 km, continued beyond.
+
+    Parameters
+    ----------
+    pressure
+        [Pa]; below 0 it counts as 0.
+
+    Returns
+    -------
+    Above mean sea level [m].
+
     """
     ratio = math.pow(max(pressure, 0.0) / PRESSURE, 1.0 / _EXPONENT)
     height = TEMPERATURE / LAPSE * (ratio - 1.0)

@@ -37,7 +37,20 @@ class NoiseFilter:
 
 
 def stationary_covariance(a: ArrayLike, b: ArrayLike) -> Array:
-    """Return P of A P + P A' + b b' = 0."""
+    """
+    Return the covariance of a filter that has run for long: P of A P + P A' + b b' = 0.
+
+    Parameters
+    ----------
+    a, b
+        Of x' = A x + b n, shapes (n, n) and (n,) [1/s], [s^-1/2]; A with eigenvalues of negative
+        real part.
+
+    Returns
+    -------
+    P, shape (n, n).
+
+    """
     drift, noise = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
     covariance: Array = solve_continuous_lyapunov(drift, -np.outer(noise, noise))
     return covariance
@@ -49,6 +62,19 @@ def discretise(a: ArrayLike, b: ArrayLike, tick: float) -> tuple[Array, Array]:
 
     Van Loan (1978), IEEE Trans. Automatic Control 23:395: both stand in the exponential of
     [[-A, b b'], [0, A']] h.
+
+    Parameters
+    ----------
+    a, b
+        Of x' = A x + b n, shapes (n, n) and (n,) [1/s], [s^-1/2].
+    tick
+        h [s].
+
+    Returns
+    -------
+    phi, covariance
+        exp(A h) and Q(h), shape (n, n) each.
+
     """
     drift, noise = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
     n = len(noise)
@@ -61,10 +87,24 @@ def discretise(a: ArrayLike, b: ArrayLike, tick: float) -> tuple[Array, Array]:
 
 def normal_numbers(seed: int, stream: int, ticks: int, count: int) -> Array:
     """
-    Return the standard normal numbers of the first ticks, shape (ticks, count).
+    Return the standard normal numbers of the first ticks.
 
     Counter-based: Philox4x64-10 (Salmon et al. 2011) with the key (seed, stream), the counter
     running on through the ticks in blocks of four words, and Box and Muller's transform.
+
+    Parameters
+    ----------
+    seed, stream
+        The key: two whole numbers from 0 to 2^64 - 1.
+    ticks
+        How many ticks, from tick 0 on.
+    count
+        How many numbers each tick has.
+
+    Returns
+    -------
+    [-], shape (ticks, count).
+
     """
     blocks = -(-count // 4)
     # numpy's generator advances its counter before the first block: start one before 0
@@ -83,6 +123,16 @@ def noise_stream(name: str) -> int:
     Return the key of a vehicle's noise: the 64-bit FNV-1a hash of its name.
 
     So the gusts of one vehicle do not depend on which others there are. Fowler, Noll and Vo.
+
+    Parameters
+    ----------
+    name
+        Name of the vehicle.
+
+    Returns
+    -------
+    A whole number from 0 to 2^64 - 1.
+
     """
     value = 0xCBF29CE484222325
     for byte in name.encode():
@@ -94,9 +144,27 @@ def noise_samples(
     filters: Sequence[NoiseFilter], outputs: int, tick: float, seed: int, stream: int, ticks: int
 ) -> Array:
     """
-    Return the outputs at the ticks -1, 0, 1, ..., shape (ticks, outputs).
+    Return the outputs at the ticks -1, 0, 1, ...
 
     The sample at tick -1 is drawn from the stationary distribution.
+
+    Parameters
+    ----------
+    filters
+        What drives which output.
+    outputs
+        How many outputs there are.
+    tick
+        [s].
+    seed, stream
+        The key of the random numbers, see `normal_numbers`.
+    ticks
+        How many samples.
+
+    Returns
+    -------
+    In the unit of the filters' weights, shape (ticks, outputs).
+
     """
     states = sum(len(f.b) for f in filters)
     normal = normal_numbers(seed, stream, ticks, states)
@@ -124,6 +192,21 @@ def between_ticks(samples: ArrayLike, tick: float, time: float) -> tuple[Array, 
 
     Catmull-Rom: the cubic whose slopes at both ends are (next - previous) / 2 h. The derivative is
     continuous. Fourth-order methods keep their order where steps begin at ticks.
+
+    Parameters
+    ----------
+    samples
+        At the ticks -1, 0, 1, ..., shape (ticks, outputs).
+    tick
+        h [s].
+    time
+        [s], at least 0; two samples must follow its tick.
+
+    Returns
+    -------
+    value, rate
+        In the unit of the samples, and that per second, shape (outputs,) each.
+
     """
     held = np.asarray(samples, dtype=np.float64)
     k = int(np.floor(time / tick))

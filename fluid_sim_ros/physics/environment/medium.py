@@ -44,7 +44,27 @@ def logarithmic_profile(
     Return f = ln(z/z_0)/ln(z_ref/z_0) and df/dz [1/m]; 0 and 0 at and below the roughness.
 
     Law of the wall for a rough surface, neutral stratification; Stull (1988), ch. 9. Roughness
-    length z_0: sea 2e-4 m, grass 0.03 m, suburb 0.5 m (WMO). Arguments in [m].
+    length z_0: sea 2e-4 m, grass 0.03 m, suburb 0.5 m (WMO).
+
+    Parameters
+    ----------
+    height
+        Above the ground [m], shape (...).
+    reference
+        Height at which f is 1 [m], above the roughness length.
+    roughness
+        z_0 [m], above 0.
+
+    Returns
+    -------
+    factor, slope
+        f [-] and df/dz [1/m], shape (...) each.
+
+    Raises
+    ------
+    ConfigError
+        If the reference height is not above the roughness length.
+
     """
     z, z_0 = np.asarray(height, dtype=np.float64), float(positive(roughness, 'roughness [m]'))
     if not reference > z_0:
@@ -61,7 +81,27 @@ def table_profile(
     """
     Return f by linear interpolation of a table, and df/dz [1/m]; constant beyond its ends.
 
-    At a knot the slope is that of the interval above. ``heights`` must rise strictly.
+    At a knot the slope is that of the interval above.
+
+    Parameters
+    ----------
+    height
+        Above the datum [m], shape (...).
+    heights
+        Of the knots [m], rising strictly, shape (n,).
+    factors
+        f at the knots [-], shape (n,).
+
+    Returns
+    -------
+    factor, slope
+        f [-] and df/dz [1/m], shape (...) each.
+
+    Raises
+    ------
+    ConfigError
+        If the knots do not rise strictly, or there are too few.
+
     """
     z, knots = np.asarray(height, dtype=np.float64), np.asarray(heights, dtype=np.float64)
     values = np.asarray(factors, dtype=np.float64)
@@ -75,7 +115,21 @@ def table_profile(
 
 
 def flow_velocity(factor: ArrayLike, velocity_w: ArrayLike) -> Array:
-    """Return u = f(z) U [m/s], world axes, shape (..., 3)."""
+    """
+    Return the velocity u = f(z) U of a flow with a vertical profile.
+
+    Parameters
+    ----------
+    factor
+        f at the height of the point [-], shape (...).
+    velocity_w
+        U, at the reference height [m/s], world axes, shape (..., 3).
+
+    Returns
+    -------
+    [m/s], world axes, shape (..., 3).
+
+    """
     return column(factor) * vectors(velocity_w, 'velocity_w')
 
 
@@ -142,13 +196,43 @@ def slew_limited(
 
 
 def layered(height: ArrayLike, surface: ArrayLike, below: ArrayLike, above: ArrayLike) -> Array:
-    """Return a property (density, viscosity) at a height: ``below`` up to the surface."""
+    """
+    Return a property (density, viscosity) at a height: ``below`` up to the surface.
+
+    Parameters
+    ----------
+    height
+        World z of the point [m], shape (...).
+    surface
+        World z of the surface [m], shape (...).
+    below, above
+        The property in the lower and the upper medium, in any unit, shape (...).
+
+    Returns
+    -------
+    In the same unit, shape (...).
+
+    """
     wet = np.asarray(height) <= np.asarray(surface)
     return np.where(wet, np.asarray(below, dtype=np.float64), above)
 
 
 def blended(share: ArrayLike, below: ArrayLike, above: ArrayLike) -> Array:
-    """Return s below + (1 - s) above: a property seen by a body with wetted share s."""
+    """
+    Return s below + (1 - s) above: a property seen by a body with wetted share s.
+
+    Parameters
+    ----------
+    share
+        Wetted share s in [0, 1], shape (...).
+    below, above
+        The property in the lower and the upper medium, in any unit, shape (...).
+
+    Returns
+    -------
+    In the same unit, shape (...).
+
+    """
     s = np.asarray(share, dtype=np.float64)
     mixture: Array = s * np.asarray(below) + (1.0 - s) * np.asarray(above)
     return mixture

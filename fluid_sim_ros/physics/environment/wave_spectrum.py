@@ -5,12 +5,8 @@ from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array, not_negative, positive
-from fluid_sim_ros.physics.environment.waves import (
-    Sea,
-    checked_height,
-    dispersion_wavenumber,
-    unit_direction,
-)
+from fluid_sim_ros.physics.environment.wave_dispersion import checked_height, dispersion_wavenumber
+from fluid_sim_ros.physics.environment.waves import Sea, unit_direction
 
 #: Lowest frequency of a sea over the peak's: below it JONSWAP holds 2e-9 of the energy.
 LOWEST = 0.5
@@ -25,6 +21,18 @@ def jonswap_shape(ratio: ArrayLike, gamma: float) -> Array:
     r^-5 exp(-5/4 r^-4) gamma^exp(-(r - 1)^2/(2 sigma^2)), sigma = 0.07 up to the peak and 0.09
     above it; Hasselmann et al. (1973), Dtsch. Hydrogr. Z. A8(12). gamma = 1 is the
     Pierson-Moskowitz spectrum of a fully developed sea, 3.3 the mean of JONSWAP.
+
+    Parameters
+    ----------
+    ratio
+        r [-], above 0, shape (...).
+    gamma
+        Peakedness [-], 1 to 10.
+
+    Returns
+    -------
+    [-], shape (...).
+
     """
     r = np.asarray(ratio, dtype=np.float64)
     sigma = np.where(r <= 1.0, 0.07, 0.09)
@@ -37,10 +45,24 @@ def jonswap_spectrum(
     omega: ArrayLike, significant_height: float, peak_period: float, gamma: float = 3.3
 ) -> Array:
     """
-    Return S(omega) [m^2 s/rad]; the variance of the surface per angular frequency.
+    Return S(omega): the variance of the surface per angular frequency.
 
     With the factor 5/16 H_s^2 omega_p^4 omega^-5 (1 - 0.287 ln gamma) of DNV-RP-C205, 3.5.5, by
     which its integral is H_s^2/16 within 0.3 % for gamma from 1 to 5 (1.8 % at 7).
+
+    Parameters
+    ----------
+    omega
+        Angular frequency [rad/s], above 0, shape (...).
+    significant_height, peak_period
+        H_s [m] and T_p [s].
+    gamma
+        Peakedness [-], 1 to 10.
+
+    Returns
+    -------
+    [m^2 s/rad], one-sided, shape (...).
+
     """
     omega_p = 2.0 * np.pi / float(positive(peak_period, 'peak period [s]'))
     norm = 5.0 / 16.0 * significant_height**2 / omega_p * (1.0 - 0.287 * np.log(gamma))

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array, column, positive, vectors
+from fluid_sim_ros.physics.environment.wave_dispersion import checked_height, dispersion_wavenumber
 
 #: e^(-2 k h) beyond this k h is below the rounding of 1: the water counts as deep.
 DEEP = 20.0
@@ -55,59 +56,6 @@ class Flow(NamedTuple):
         return self.rate + carried
 
 
-def dispersion_wavenumber(omega: ArrayLike, depth: float, gravity: float) -> Array:
-    """
-    Return k of omega^2 = g k tanh(k h) [rad/m].
-
-    Newton's method on x tanh x = omega^2 h/g from the explicit approximation of Guo (2002),
-    Coastal Engineering 45:71, which is within 0.75 %; the result is exact to rounding.
-
-    Parameters
-    ----------
-    omega
-        Angular frequency [rad/s], positive, shape (...).
-    depth
-        h [m], positive; inf for deep water, where k = omega^2/g.
-    gravity
-        g [m/s^2], positive.
-
-    """
-    square = positive(omega, 'omega [rad/s]') ** 2 / float(positive(gravity, 'gravity [m/s^2]'))
-    if not depth > 0:
-        raise ConfigError(f'depth [m]: {depth}; allowed: > 0')
-    if np.isinf(depth):
-        return square
-    target = square * depth
-    x = target * (1.0 - np.exp(-(target**1.25))) ** -0.4
-    for _ in range(4):  # quadratic from 0.75 %: three are enough, the fourth costs nothing
-        t = np.tanh(x)
-        x = x - (x * t - target) / (t + x * (1.0 - t * t))
-    wavenumber: Array = x / depth
-    return wavenumber
-
-
-def breaking_height(period: float, depth: float, gravity: float = 9.81) -> float:
-    """
-    Return the height at which waves of a period break [m]: 0.142 L tanh(k h).
-
-    Miche (1944), Annales des Ponts et Chaussees 114. Linear waves describe the flow well up to
-    about a third of it. Period [s], depth [m] and gravity [m/s^2] as in `dispersion_wavenumber`.
-    """
-    omega = 2.0 * np.pi / float(positive(period, 'period [s]'))
-    k = float(dispersion_wavenumber(omega, depth, gravity))
-    return 0.142 * 2.0 * np.pi / k * float(np.tanh(k * depth))
-
-
-def checked_height(height: float, period: float, depth: float, gravity: float) -> float:
-    """Return a wave height [m], or raise a ConfigError where waves so high would break."""
-    limit = breaking_height(period, depth, gravity)
-    if not 0.0 <= height <= limit:
-        raise ConfigError(
-            f'height: {height} m; allowed: 0 to {limit:.6g} m, where waves of {period} s break'
-        )
-    return float(height)
-
-
 def regular_waves(
     height: float,
     period: float,
@@ -141,7 +89,24 @@ def regular_waves(
 
 
 def unit_direction(direction: ArrayLike) -> Array:
-    """Return a direction in the plane as a unit vector, shape (2,)."""
+    """
+    Return a direction in the plane as a unit vector.
+
+    Parameters
+    ----------
+    direction
+        World x and y, any length but 0, shape (2,).
+
+    Returns
+    -------
+    [-], shape (2,).
+
+    Raises
+    ------
+    ConfigError
+        If the direction is 0 or not finite.
+
+    """
     along = vectors(direction, 'direction', 2)
     length = np.linalg.norm(along)
     if along.shape != (2,) or not (np.isfinite(length) and length > 0):

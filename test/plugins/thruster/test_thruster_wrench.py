@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fluid_sim_ros.physics import propulsion
+from fluid_sim_ros.physics import rotor_effects
 from fluid_sim_ros.plugins import native as nat
 from test.support.plugin_models import explicit_force, load
 from test.support.thruster_models import AEROSONDE, X500, read, rotor_world, settle
@@ -81,7 +81,7 @@ def test_gyroscopic_torque_is_the_twins_and_does_no_work():
     random_motion(model, data)
     settle(model, data, 700)
     axis = np.array([0, -np.sin(TILT), np.cos(TILT)])
-    wanted = propulsion.gyroscopic_torque(700, data.qvel[3:], axis, inertia=2e-4, spin=-1)
+    wanted = rotor_effects.gyroscopic_torque(700, data.qvel[3:], axis, inertia=2e-4, spin=-1)
     np.testing.assert_allclose(data.qfrc_passive[3:], wanted, rtol=1e-10)
     np.testing.assert_allclose(data.qfrc_passive[:3], 0, atol=1e-15)
     np.testing.assert_array_equal(data.qfrc_fluid, 0)  # no force of the fluid
@@ -100,7 +100,7 @@ def test_rotor_drag_in_wind_is_the_twins(omega, seed):
     arm = np.array([0.1, -0.2, 0.05])
     v = rotation.T @ (data.qvel[:3] - wind) + np.cross(data.qvel[3:], arm)
     axis = np.array([0, -np.sin(TILT), np.cos(TILT)])
-    force, moment = propulsion.rotor_drag(
+    force, moment = rotor_effects.rotor_drag(
         omega, v, axis, across=8.06e-5, along=3e-5, rolling=1e-6, spin=-1
     )
     assert force @ v <= 0
@@ -135,11 +135,11 @@ def test_ground_effect(effect):
     far = 8.54858e-6 * 600**2
     for height in (0.01, 0.1, 0.2, 0.4, 1.0, 5.0):
         data.qpos[2] = height - 3
-        factor = propulsion.ground_effect_factor(height, radius, strength)
+        factor = rotor_effects.ground_effect_factor(height, radius, strength)
         assert settle(model, data, 600)['thrust'] == pytest.approx(far * factor, rel=1e-12)
-    assert propulsion.ground_effect_factor(radius, radius) == pytest.approx(16 / 15, rel=1e-14)
+    assert rotor_effects.ground_effect_factor(radius, radius) == pytest.approx(16 / 15, rel=1e-14)
     data.qpos[2], data.qpos[3:7] = 0.3 - 3, [np.cos(0.5), np.sin(0.5), 0, 0]  # wake is longer
-    factor = propulsion.ground_effect_factor(0.3 / np.cos(1), radius, strength)
+    factor = rotor_effects.ground_effect_factor(0.3 / np.cos(1), radius, strength)
     assert settle(model, data, 600)['thrust'] == pytest.approx(far * factor, rel=1e-12)
     data.qpos[3:7] = [0, 1, 0, 0]  # wake goes up
     assert settle(model, data, 600)['thrust'] == pytest.approx(far, rel=1e-12)
@@ -162,7 +162,7 @@ def test_propeller_leaves_the_water(fluid, other):
     model, data = load(rotor_world(values, axis='1 0 0', medium=SEA))
     for depth in (1.0, 0.04, 0.01, 0.0, -0.02, -0.05, -1.0):
         data.qpos[2] = -depth
-        share = propulsion.disc_share(depth, 0.05, 0.0)
+        share = rotor_effects.disc_share(depth, 0.05, 0.0)
         wanted = 20 * (share + (1 - share) * other)
         assert settle(model, data, 20)['thrust'] == pytest.approx(wanted, rel=1e-12)
 
@@ -178,9 +178,9 @@ def test_rotor_of_the_air_does_nothing_in_the_water():
 
 @given(depth=st.floats(-2, 2), axis_z=st.floats(-1, 1))
 def test_share_of_a_disc(depth, axis_z):
-    share = propulsion.disc_share(depth, 0.5, axis_z)
+    share = rotor_effects.disc_share(depth, 0.5, axis_z)
     assert 0 <= share <= 1
-    assert share + propulsion.disc_share(-depth, 0.5, axis_z) == pytest.approx(1, abs=1e-12)
+    assert share + rotor_effects.disc_share(-depth, 0.5, axis_z) == pytest.approx(1, abs=1e-12)
     if abs(depth) >= 0.5:
         assert share == (depth > 0)
 
@@ -229,6 +229,6 @@ def test_a_wave_covers_and_bares_a_propeller():
     model, data = load(rotor_world(values, axis='1 0 0', medium=sea, option=option))
     for data.time, share in ((0.0, 1.0), (1.5, 0.5), (3.0, 0.0), (1.49, None)):
         if share is None:
-            share = propulsion.disc_share(0.5 * np.cos(2 * np.pi * 1.49 / 6), 0.05, 0.0)
+            share = rotor_effects.disc_share(0.5 * np.cos(2 * np.pi * 1.49 / 6), 0.05, 0.0)
             assert 0.5 < share < 0.7
         assert settle(model, data, 20)['thrust'] == pytest.approx(20 * share, abs=1e-9)
