@@ -17,8 +17,9 @@ import numpy as np
 
 from benchmarks.common import RESULTS, arguments, write
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.lab.advise import advise, advised, verify
-from fluid_sim_ros.lab.scene_settings import keep
+from fluid_sim_ros.lab.advisor.advice import advised, verify
+from fluid_sim_ros.lab.advisor.advise import advise
+from fluid_sim_ros.lab.advisor.scene_settings import keep
 from fluid_sim_ros.scene import scene_names
 
 TOLERANCES = (0.01, 0.05)

@@ -1,8 +1,8 @@
 """
 Speed against accuracy of the laboratory's problems: charts, tables, orders, Pareto fronts.
 
-Every problem of lab/catalogue.py, charted twice: errors must be the same to the bit, and Pareto
-fronts, which rest on measured times, the same set. Errors take minutes and do not mind a busy
+Every problem of lab/problems/catalogue.py, charted twice: errors must be the same to the bit, and
+Pareto fronts, which rest on measured times, the same set. Errors take minutes and do not mind a busy
 machine; times are measured after all of them, by a process for each of the two charts (the second
 keeps the first one's factor within which costs are equal while no ratio is near it), and with
 ``--times`` anew for errors that are there already (in out/lab_chart). Writes JSON, and for the
@@ -21,9 +21,9 @@ from typing import Any
 
 from benchmarks.common import RESULTS, ROOT, arguments, write
 from fluid_sim_ros.lab import results
-from fluid_sim_ros.lab.cost import ROUNDS
+from fluid_sim_ros.lab.charts.cost import ROUNDS
+from fluid_sim_ros.lab.charts.pareto import judged
 from fluid_sim_ros.lab.drawing.chart import draw
-from fluid_sim_ros.lab.pareto import judged
 from fluid_sim_ros.lab.problems.catalogue import PROBLEMS
 
 SETTING = ('rung', 'integrator', 'timestep_s')

@@ -4,7 +4,7 @@ Where integration fails: boundaries that theory predicts, outcomes, watchdogs, m
 The drag number x = h K |v|/(m + m_A) of each predicted boundary, measured by bisection of one
 step; bodies on which one integrator fails and another survives, with what the watchdogs say of
 each; 1,000 random runs that are stable by construction, in which no watchdog may speak up; maps.
-Writes JSON, and for the full volume the maps of lab/bodies.py.
+Writes JSON, and for the full volume the maps of lab/problems/bodies.py.
 Run: ``python -m benchmarks.lab.lab_stability [--quick] [--json PATH]``.
 """
 
@@ -15,12 +15,13 @@ import numpy as np
 
 from benchmarks.common import RESULTS, ROOT, arguments, write
 from fluid_sim_ros.lab.drawing.stability_chart import draw_map
-from fluid_sim_ros.lab.false_alarms import random_run
-from fluid_sim_ros.lab.outcomes import outcome
 from fluid_sim_ros.lab.problems.bodies import FAMILIES, Body, family
 from fluid_sim_ros.lab.problems.boundaries import EXPLICIT
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS
-from fluid_sim_ros.lab.stability import largest_steps, measured_numbers, plan, run_map
+from fluid_sim_ros.lab.stability.false_alarms import random_run
+from fluid_sim_ros.lab.stability.limits import largest_steps, measured_numbers
+from fluid_sim_ros.lab.stability.outcomes import outcome
+from fluid_sim_ros.lab.stability.stability_map import plan, run_map
 
 #: A body, changes to it, and a timestep [s]: there one integrator fails, another does not.
 SCENES: dict[str, tuple[str, dict[str, float], float]] = {

@@ -4,7 +4,8 @@ Falling plates: where fluttering gives way to tumbling, with the plugin and with
 The plate of Andersen, Pesavento and Wang (2005), J. Fluid Mech. 541:91, moves in a vertical plane.
 Their dimensionless model (physics/falling_plate.py) puts the transition at I* = 1.2191. The
 plugin gets its added mass, drag (true area), lift and both rotational damping terms by the
-mapping of lab/plates.py; stock MuJoCo has the same shape and weight with the default coefficients.
+mapping of lab/problems/plates.py; stock MuJoCo has the same shape and weight with the default
+coefficients.
 
 The mapping is exact but for the drag between edge-on and broadside: A - B cos 2a in the paper,
 that is (A - B) + 2 B sin^2 a, and (A - B) + 2 B |sin a| by the area of the shadow. The paper's

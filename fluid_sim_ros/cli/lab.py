@@ -12,7 +12,7 @@ from fluid_sim_ros.cli.shared import Show, add_command, progress_bar
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
-    from fluid_sim_ros.lab.cost import Report
+    from fluid_sim_ros.lab.progress import Report
 
 #: Exit code of advise where nothing meets the tolerance.
 NOTHING_FITS = 1
@@ -149,7 +149,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
 
 
 def _measured(arguments: argparse.Namespace) -> list[dict[str, Any]]:
-    from fluid_sim_ros.lab.measure import measure
+    from fluid_sim_ros.lab.charts.measure import measure
     from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
     from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 
@@ -169,7 +169,7 @@ def _measured(arguments: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def _timed_again(found: list[dict[str, Any]], rounds: int) -> list[dict[str, Any]]:
-    from fluid_sim_ros.lab.measure import time_again
+    from fluid_sim_ros.lab.charts.measure import time_again
     from fluid_sim_ros.lab.problems.catalogue import problem
 
     with progress() as report:
@@ -184,25 +184,27 @@ def _stability(arguments: argparse.Namespace, show: Show) -> int:
     from rich.markup import escape
     from rich.table import Table
 
-    from fluid_sim_ros.lab import results, stability
+    from fluid_sim_ros.lab import results
     from fluid_sim_ros.lab.drawing.stability_chart import draw_map
-    from fluid_sim_ros.lab.outcomes import OUTCOMES
     from fluid_sim_ros.lab.problems.problem import INTEGRATORS
+    from fluid_sim_ros.lab.stability.limits import largest_steps
+    from fluid_sim_ros.lab.stability.outcomes import OUTCOMES
+    from fluid_sim_ros.lab.stability.stability_map import plan, run_map
 
     if not arguments.problem:
         return _list_stability(arguments, show)
-    head = stability.plan(
+    head = plan(
         arguments.problem, x=arguments.x, y=arguments.y, x_range=arguments.x_range,
         y_range=arguments.y_range, cells=arguments.cells,
         integrators=arguments.integrators or INTEGRATORS, fixed=_settings(arguments.fixed),
     )  # fmt: skip
     stem = arguments.out / f'{head["problem"]}_{head["x"]}_{head["y"]}'
     with progress() as report:
-        result = stability.run_map(
+        result = run_map(
             head, stem.with_suffix('.jsonl'), restart=arguments.restart, report=report
         )
         if arguments.bisect:
-            result['largest_steps'] = stability.largest_steps(head, report)
+            result['largest_steps'] = largest_steps(head, report)
     result['files'] = [str(stem.with_suffix(suffix)) for suffix in ('.jsonl', '.json', '.png')]
     draw_map(result, stem.with_suffix('.png'))
     results.save(result, stem.with_suffix('.json'))
@@ -229,13 +231,14 @@ def _settings(pairs: list[str]) -> dict[str, float]:
 
 
 def _advise(arguments: argparse.Namespace, show: Show) -> int:
-    from fluid_sim_ros.lab import advise as lab
-    from fluid_sim_ros.lab.scene_settings import apply, keep, scene_file
+    from fluid_sim_ros.lab.advisor import advice as lab
+    from fluid_sim_ros.lab.advisor.advise import advise
+    from fluid_sim_ros.lab.advisor.scene_settings import apply, keep, scene_file
 
     if arguments.apply or arguments.keep:
         scene_file(arguments.scene)
     with progress() as report:
-        advice = lab.advise(
+        advice = advise(
             arguments.scene, arguments.tolerance, duration=arguments.duration,
             metric_name=arguments.metric, rate=arguments.rate, budget=arguments.budget,
             report=report,

@@ -13,7 +13,7 @@ def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
     from rich.markup import escape
     from rich.table import Table
 
-    from fluid_sim_ros.lab.pareto import judged
+    from fluid_sim_ros.lab.charts.pareto import judged
 
     table = Table(
         'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
@@ -51,7 +51,7 @@ def advice_table(advice: dict[str, Any], asked: str) -> Any:
 
 
 def _lines(advice: dict[str, Any], asked: str) -> list[str]:
-    from fluid_sim_ros.lab.advise import snippet
+    from fluid_sim_ros.lab.advisor.advice import snippet
 
     lines = []
     if advice['note']:

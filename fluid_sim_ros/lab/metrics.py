@@ -18,7 +18,20 @@ _LEAST_SPEED = 1e-3
 
 
 def vehicle_size(rung: Rung) -> float:
-    """Return the largest extent of a vehicle from its base [m], shapes that collide or fluid."""
+    """
+    Return the largest extent of a vehicle from its base, over all its shapes.
+
+    Parameters
+    ----------
+    rung
+        The model.
+
+    Returns
+    -------
+    float
+        [m]; 0.1 m for vehicles without shapes.
+
+    """
     compiled = rung.scene.compile()
     model = compiled.model
     sizes = [
@@ -37,6 +50,22 @@ def metric(name: str, problem: Problem, reference: Array) -> Metric:
     position: over the largest distance from the start, at least the vehicle's size; attitude:
     over the largest turn from the start, at least 0.1 rad; pose: the larger of both; velocity:
     over the largest speed; regime: of mean descent and frequency.
+
+    Parameters
+    ----------
+    name
+        One of METRICS.
+    problem
+        Whose motion is judged.
+    reference
+        The converged motion that sets the scales, shape (n, vehicles, 13).
+
+    Returns
+    -------
+    Metric
+        Function of states and reference states, shape (n, vehicles, 13) each; returns the relative
+        error [-].
+
     """
     start = reference[:1]
     length = max(

@@ -25,16 +25,40 @@ SURE_GROWTH = 1e6
 
 
 def position_error(states: Array, reference: Array) -> Array:
-    """Return the distance [m] of the vehicle that is farthest off, shape (n,)."""
+    """
+    Return the distance of the vehicle that is farthest off.
+
+    Parameters
+    ----------
+    states, reference
+        Two motions, world positions in columns 0 to 2 [m], shape (n, vehicles, 13).
+
+    Returns
+    -------
+    Array
+        [m], shape (n,).
+
+    """
     apart = np.linalg.norm(states[..., POSITION] - reference[..., POSITION], axis=-1)
     return np.asarray(apart.max(axis=-1))
 
 
 def attitude_error(states: Array, reference: Array) -> Array:
     """
-    Return the angle between the attitudes of the vehicle that is farthest off [rad], shape (n,).
+    Return the angle between the attitudes of the vehicle that is farthest off.
 
     2 atan2(|q_v|, |q_w|) of q_ref^-1 q: no floor at 1e-8, as the trace of the matrix has.
+
+    Parameters
+    ----------
+    states, reference
+        Two motions, quaternions (w, x, y, z) in columns 3 to 6, shape (n, vehicles, 13).
+
+    Returns
+    -------
+    Array
+        [rad], from 0 to pi, shape (n,).
+
     """
     q, r = np.broadcast_arrays(states[..., QUATERNION], reference[..., QUATERNION])
     turn = _rotation(r).inv() * _rotation(q)
@@ -46,14 +70,45 @@ def _rotation(quat_wxyz: Array) -> Rotation:
 
 
 def drift(values: Array) -> Array:
-    """Return the size of the change from the start relative to the start's size, shape (n,)."""
+    """
+    Return the size of the change of a quantity from its start, relative to its size at the start.
+
+    Parameters
+    ----------
+    values
+        Over time, shape (n,) or (n, k).
+
+    Returns
+    -------
+    Array
+        [-], shape (n,).
+
+    """
     table = values.reshape(len(values), -1)
     size = np.linalg.norm(table[0]) or 1.0
     return np.asarray(np.linalg.norm(table - table[0], axis=1) / size)
 
 
 def errors(problem: Problem, trajectory: Trajectory, reference: Array) -> dict[str, float]:
-    """Return every error of a complete run, at the end and the largest over time."""
+    """
+    Return every error of a complete run.
+
+    Parameters
+    ----------
+    problem
+        Whose run it is; its invariants are compared with their values at the start.
+    trajectory
+        The run.
+    reference
+        States at the same times, shape (n, vehicles, 13).
+
+    Returns
+    -------
+    dict
+        ``position_m`` [m], ``attitude_rad`` [rad] and one relative ``<invariant>_drift`` each, at
+        the end; with ``_max`` behind the name, the largest over time.
+
+    """
     found = {
         'position_m': position_error(trajectory.states, reference),
         'attitude_rad': attitude_error(trajectory.states, reference),
@@ -73,7 +128,22 @@ class Regime(NamedTuple):
 
 
 def regime(times: Array, states: Array) -> Regime:
-    """Return mean descent and frequency of the first vehicle over the second half of a run."""
+    """
+    Return mean descent and frequency of the first vehicle over the second half of a run.
+
+    Parameters
+    ----------
+    times
+        Evenly spaced [s], shape (n,).
+    states
+        Motion at these times, shape (n, vehicles, 13).
+
+    Returns
+    -------
+    Regime
+        Mean descent [m/s] and frequency [Hz].
+
+    """
     half = len(times) // 2
     height = states[half:, 0, POSITION][:, 2]
     step = times[1] - times[0]
@@ -85,7 +155,20 @@ def regime(times: Array, states: Array) -> Regime:
 
 
 def regime_error(found: Regime, wanted: Regime) -> float:
-    """Return the larger relative difference of mean descent and frequency."""
+    """
+    Return the larger relative difference of mean descent and frequency.
+
+    Parameters
+    ----------
+    found, wanted
+        Two regimes; the difference is taken relative to the second.
+
+    Returns
+    -------
+    float
+        [-].
+
+    """
     pairs = zip(found, wanted, strict=True)
     return max(abs(a - b) / (abs(b) or 1.0) for a, b in pairs)
 
@@ -116,6 +199,23 @@ def sensitivity(
     Deviations are those of velocity [m/s] and angular velocity [rad/s] together, so that the
     linear growth of a distance does not count. The growth is taken from the first quarter of the
     run to the last, so that a transient at the start does not count either.
+
+    Parameters
+    ----------
+    problem
+        What is run.
+    integrator
+        By which integrator.
+    timestep
+        [s].
+    plain
+        The run of the richest rung by this integrator and timestep, without a nudge.
+
+    Returns
+    -------
+    Sensitivity
+        Growth, time to grow by e, and whether that counts as chaotic.
+
     """
     nudged = run_rung(problem, problem.rungs[problem.richest], integrator, timestep, NUDGE)
     count = min(len(nudged.states), len(plain.states))

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TypeVar
 
-from fluid_sim_ros.lab.cost import Report
+from fluid_sim_ros.lab.progress import Report
 
 Item = TypeVar('Item')
 Result = TypeVar('Result')
@@ -14,7 +14,26 @@ Result = TypeVar('Result')
 def run_parallel(
     work: Callable[[Item], Result], items: Iterable[Item], what: str, report: Report
 ) -> list[Result]:
-    """Return what ``work`` makes of each item, in order; an error or interruption ends all."""
+    """
+    Apply a function to each item, on all cores; an error or interruption ends all.
+
+    Parameters
+    ----------
+    work
+        The function; it must be safe to call from several threads.
+    items
+        Its arguments.
+    what
+        What is being done, for the report.
+    report
+        Told how far it is.
+
+    Returns
+    -------
+    list
+        What ``work`` returned for each item, in order.
+
+    """
     rows = list(items)
     pool = ThreadPoolExecutor(os.cpu_count())
     try:

@@ -2,15 +2,35 @@
 
 import csv
 import json
+import os
+import platform
 from pathlib import Path
 from typing import Any
 
+import mujoco
+
+from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab.pareto import judged
+from fluid_sim_ros.lab.charts.pareto import judged
 
 
 def save(result: dict[str, Any], path: Path) -> Path:
-    """Write a result as JSON; return the file."""
+    """
+    Write a result as JSON.
+
+    Parameters
+    ----------
+    result
+        What to write.
+    path
+        File to write; its folder is made where it is not there.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(result, indent=1, allow_nan=False) + '\n', encoding='utf-8')
     return path
@@ -19,6 +39,18 @@ def save(result: dict[str, Any], path: Path) -> Path:
 def load(path: Path, key: str) -> dict[str, Any]:
     """
     Read a result that holds ``key``.
+
+    Parameters
+    ----------
+    path
+        JSON file.
+    key
+        That the result must have.
+
+    Returns
+    -------
+    dict
+        The result.
 
     Raises
     ------
@@ -36,7 +68,22 @@ def load(path: Path, key: str) -> dict[str, Any]:
 
 
 def write_csv(result: dict[str, Any], path: Path) -> Path:
-    """Write the points of a chart, one row each; return the file."""
+    """
+    Write the points of a chart, one row each.
+
+    Parameters
+    ----------
+    result
+        A chart, as ``measure`` returns it.
+    path
+        File to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     fields = (
         'rung', 'integrator', 'timestep_s', 'status', 'cpu_us_per_s', 'cpu_quartile_low_us_per_s',
         'cpu_quartile_high_us_per_s', 'wall_us_per_s', 'wall_quartile_low_us_per_s',
@@ -51,3 +98,14 @@ def write_csv(result: dict[str, Any], path: Path) -> Path:
             every = point['error'] or {}
             writer.writerow([*(row[f] for f in fields), *(every.get(name) for name in names)])
     return path
+
+
+def conditions() -> dict[str, Any]:
+    """Return what times depend on."""
+    return {
+        'fluid_sim_ros': __version__,
+        'mujoco': mujoco.__version__,
+        'python': platform.python_version(),
+        'architecture': platform.machine(),
+        'cores': os.cpu_count(),
+    }

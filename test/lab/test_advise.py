@@ -10,13 +10,14 @@ import pytest
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab.advise import advise, settings, snippet, verify
-from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns
-from fluid_sim_ros.lab.manoeuvre import judged_part
+from fluid_sim_ros.lab.advisor.advice import settings, snippet, verify
+from fluid_sim_ros.lab.advisor.advise import advise
+from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
+from fluid_sim_ros.lab.advisor.manoeuvre import judged_part
+from fluid_sim_ros.lab.advisor.reference import find_reference
 from fluid_sim_ros.lab.metrics import METRICS, metric
 from fluid_sim_ros.lab.problems.catalogue import problem
-from fluid_sim_ros.lab.problems.problem import of_scene
-from fluid_sim_ros.lab.reference import find_reference
+from fluid_sim_ros.lab.problems.from_scene import of_scene
 from fluid_sim_ros.scene import scene_names
 from fluid_sim_ros.schema.scene import ScheduledEvent
 

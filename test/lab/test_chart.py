@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab.cost import Curve, step_costs
-from fluid_sim_ros.lab.measure import measure
-from fluid_sim_ros.lab.pareto import FRONT_RANGE, _price_of_more, mark_front, tie
+from fluid_sim_ros.lab.charts.cost import Curve, step_costs
+from fluid_sim_ros.lab.charts.measure import measure
+from fluid_sim_ros.lab.charts.pareto import FRONT_RANGE, _price_of_more, mark_front, tie
 from fluid_sim_ros.lab.problems.catalogue import problem
 
 STEPS = (0.05, 0.01, 0.005, 0.0025, 0.00125)

@@ -15,7 +15,8 @@ from fluid_sim_ros.lab.motion_errors import (
     sensitivity,
 )
 from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
-from fluid_sim_ros.lab.problems.problem import QUATERNION, fits, of_scene, run_rung
+from fluid_sim_ros.lab.problems.from_scene import of_scene
+from fluid_sim_ros.lab.problems.problem import QUATERNION, fits, run_rung
 
 # the quasi-steady plate differs from the ellipsoid's drag by its shadow: a model error
 OF_SCENES = ['swimmer', 'quad_in_turbulence']

@@ -8,8 +8,8 @@ import yaml
 
 from fluid_sim_ros import Scene
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab import scene_settings
-from fluid_sim_ros.lab.scene_settings import apply, changed_text, keep
+from fluid_sim_ros.lab.advisor import scene_settings
+from fluid_sim_ros.lab.advisor.scene_settings import apply, changed_text, keep
 
 SCENES = sorted((Path(__file__).resolve().parents[2] / 'config/scenes').glob('*.yaml'))
 COMMENT = 'fluid_sim advise mine --tolerance 0.01: error 0.004 (pose)'

@@ -7,12 +7,13 @@ import pytest
 
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab import stability
-from fluid_sim_ros.lab.false_alarms import random_run
-from fluid_sim_ros.lab.outcomes import coast, outcome
 from fluid_sim_ros.lab.problems.bodies import FAMILIES, Body, family
 from fluid_sim_ros.lab.problems.boundaries import amplification, critical
-from fluid_sim_ros.lab.stability import bisect, measured_numbers, plan, run_map
+from fluid_sim_ros.lab.stability import stability_map
+from fluid_sim_ros.lab.stability.false_alarms import random_run
+from fluid_sim_ros.lab.stability.limits import bisect, measured_numbers
+from fluid_sim_ros.lab.stability.outcomes import coast, outcome
+from fluid_sim_ros.lab.stability.stability_map import plan, run_map
 
 DRAGGED = [name for name, kind in FAMILIES.items() if kind.drag]
 
@@ -111,7 +112,9 @@ def test_a_map_goes_on_where_it_was_cut_off(tmp_path, monkeypatch):
     lines = (tmp_path / 'whole.jsonl').read_text().splitlines(keepends=True)
     path.write_text(''.join(lines[:6]) + lines[6][:20])  # killed in the middle of a line
     runs = []
-    monkeypatch.setattr(stability, 'outcome', lambda *args: runs.append(args) or outcome(*args))
+    monkeypatch.setattr(
+        stability_map, 'outcome', lambda *args: runs.append(args) or outcome(*args)
+    )
     assert run_map(head, path)['map'] == whole['map']
     assert len(runs) == 9 - 5
     assert run_map(head, path)['map'] == whole['map']

@@ -8,7 +8,7 @@ from test.support.paths import ROOT
 PACKAGE = ROOT / 'fluid_sim_ros'
 #: What is not yet complete.
 LEFT = {
-    'cli', 'control', 'demo', 'lab', 'loop', 'messages', 'new_vehicle',
+    'cli', 'control', 'demo', 'loop', 'messages', 'new_vehicle',
     'recording', 'ros', 'scene', 'schema', 'sensors',
     'simulation', 'sweep',
 }  # fmt: skip

@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from fluid_sim_ros.lab.charts.pareto import judged
 from fluid_sim_ros.lab.drawing.colors import INTEGRATOR_COLORS, rung_colors
 from fluid_sim_ros.lab.drawing.style import MARKERS, STYLE, save_figure
-from fluid_sim_ros.lab.pareto import judged
 
 _REAL_TIME = 1e6  # [us per simulated second]
 _UNITS = {
@@ -28,7 +28,22 @@ _ROOMY = 1e10
 
 
 def draw(result: dict[str, Any], path: Path) -> Path:
-    """Draw total error and discretisation error against processor time; return the file."""
+    """
+    Draw total error and discretisation error against processor time.
+
+    Parameters
+    ----------
+    result
+        A chart, as ``measure`` returns it.
+    path
+        PNG file to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     with plt.rc_context(STYLE):
         chaotic = result['sensitivity']['chaotic']
         columns = 1 if chaotic else 2

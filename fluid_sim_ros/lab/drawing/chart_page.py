@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.lab.charts.pareto import judged
 from fluid_sim_ros.lab.drawing.colors import INTEGRATOR_COLORS, rung_colors
-from fluid_sim_ros.lab.pareto import judged
 from fluid_sim_ros.output.html_page import write_page
 
 _TEMPLATE = Path(__file__).with_name('chart.html')
@@ -15,7 +15,22 @@ _REAL_TIME = 1e6  # [us per simulated second]
 
 
 def write_chart_page(results: Sequence[dict[str, Any]], path: Path) -> Path:
-    """Write all charts into one page; return the file."""
+    """
+    Write charts into one interactive HTML page.
+
+    Parameters
+    ----------
+    results
+        Charts, as ``measure`` returns them.
+    path
+        HTML file to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     title = 'Speed against accuracy: ' + ', '.join(result['problem'] for result in results)
     return write_page(_TEMPLATE, title, [_chart(result) for result in results], path)
 

@@ -7,7 +7,20 @@ INTEGRATOR_COLORS = dict(
 
 
 def rung_colors(rungs: list[str]) -> dict[str, str]:
-    """Return a colour for each rung; the richest one has the first."""
+    """
+    Return a colour for each rung.
+
+    Parameters
+    ----------
+    rungs
+        Names of the rungs, poorest first.
+
+    Returns
+    -------
+    dict
+        Hex colour by rung; the richest one has the first colour.
+
+    """
     return dict(zip(reversed(rungs), COLORS, strict=False))
 
 

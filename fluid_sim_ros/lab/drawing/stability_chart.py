@@ -11,17 +11,32 @@ from matplotlib.patches import Patch
 
 from fluid_sim_ros.lab.drawing.colors import OUTCOME_COLORS
 from fluid_sim_ros.lab.drawing.style import STYLE, save_figure
-from fluid_sim_ros.lab.outcomes import OUTCOMES, TOLERANCE
 from fluid_sim_ros.lab.problems.bodies import AXES, family
 from fluid_sim_ros.lab.problems.boundaries import predicted
-from fluid_sim_ros.lab.stability import values
+from fluid_sim_ros.lab.stability.outcomes import OUTCOMES, TOLERANCE
+from fluid_sim_ros.lab.stability.stability_map import values
 from fluid_sim_ros.physics.arrays import Array
 
 _LINES = {'sign flip': ':', 'growth': '--'}
 
 
 def draw_map(result: dict[str, Any], path: Path) -> Path:
-    """Draw a map; return the file."""
+    """
+    Draw a stability map, one panel per integrator.
+
+    Parameters
+    ----------
+    result
+        A map, as ``run_map`` returns it; ``largest_steps`` is drawn where it is there.
+    path
+        PNG file to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     integrators = result['integrators']
     with plt.rc_context({**STYLE, 'axes.grid': False}):
         figure, axes = plt.subplots(

@@ -18,7 +18,22 @@ MARKERS = {'Euler': 'o', 'RK4': 's', 'implicit': '^', 'implicitfast': 'v', 'disc
 
 
 def save_figure(figure: Figure, path: Path) -> Path:
-    """Write a picture and free it; return the file."""
+    """
+    Write a picture and free it.
+
+    Parameters
+    ----------
+    figure
+        The picture.
+    path
+        File to write; its folder is made where it is not there.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path)
     plt.close(figure)

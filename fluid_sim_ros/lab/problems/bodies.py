@@ -78,7 +78,26 @@ class Body:
         return np.asarray(ellipsoid_added_mass(self.axes, WATER)[0])
 
     def with_values(self, values: Mapping[str, float]) -> 'Body':
-        """Return the body with parameters of ``AXES`` replaced; ``timestep`` is not of a body."""
+        """
+        Return the body with some of its parameters replaced.
+
+        Parameters
+        ----------
+        values
+            By name of ``AXES``; ``timestep`` is not of a body and is passed over.
+
+        Returns
+        -------
+        Body
+            The changed body.
+
+        Raises
+        ------
+        ConfigError
+            For an unknown name, a value that is not finite and above 0, or two names that set the
+            same thing.
+
+        """
         known = {name: value for name, value in values.items() if name != 'timestep'}
         unknown = [name for name in known if name not in AXES]
         if unknown:
@@ -117,6 +136,17 @@ class Body:
         Return x = h K |v|/(m + m_A) for quadratic drag, h S/(m + m_A) for linear drag [-].
 
         K = rho C pi r^2 of the face, S = 6 pi mu r (sphere); m_A counts where the model has it.
+
+        Parameters
+        ----------
+        timestep
+            h [s].
+
+        Returns
+        -------
+        float
+            x [-].
+
         """
         if self.viscosity > 0:
             rate = 6 * np.pi * self.viscosity * RADIUS
@@ -173,7 +203,25 @@ FAMILIES = {
 
 
 def family(name: str) -> Family:
-    """Return a family by name; ConfigError with the names that there are."""
+    """
+    Return a family of bodies by name.
+
+    Parameters
+    ----------
+    name
+        One of FAMILIES.
+
+    Returns
+    -------
+    Family
+        The family.
+
+    Raises
+    ------
+    ConfigError
+        For another name, with those that there are.
+
+    """
     if name not in FAMILIES:
         raise ConfigError(f"stability problem '{name}' is not known; allowed: {listed(FAMILIES)}")
     return FAMILIES[name]

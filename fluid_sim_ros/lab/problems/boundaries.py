@@ -17,6 +17,21 @@ def amplification(integrator: str, drag: str, x: float) -> float:
     Return v1/v0 after one step of drag number x = h K |v|/m (quadratic) or h S/m (linear).
 
     Euler: 1 - x for both. RK4: its four stages on v' = -|v| v or v' = -v with h = x, v0 = 1.
+
+    Parameters
+    ----------
+    integrator
+        ``Euler`` or ``RK4``.
+    drag
+        ``quadratic`` or ``linear``.
+    x
+        Drag number [-].
+
+    Returns
+    -------
+    float
+        v1/v0 [-].
+
     """
 
     def rate(v: float) -> float:
@@ -37,6 +52,19 @@ def critical(integrator: str, drag: str) -> dict[str, float]:
     Return the drag numbers from which on a step turns the velocity round, and makes it grow.
 
     Euler: 1 and 2. RK4: it grows from 2.785 on (linear) or about 2.5 (quadratic).
+
+    Parameters
+    ----------
+    integrator
+        ``Euler`` or ``RK4``.
+    drag
+        ``quadratic`` or ``linear``.
+
+    Returns
+    -------
+    dict
+        Drag number [-] of ``sign flip`` and ``growth``, as far as there is one.
+
     """
     found = {}
     tests: dict[str, Callable[[float], float]] = {
@@ -54,7 +82,24 @@ def critical(integrator: str, drag: str) -> dict[str, float]:
 
 
 def predicted(body: Body, drag: str, integrator: str) -> Mapping[str, float]:
-    """Return the timesteps [s] of the boundaries; none where the drag is not explicit."""
+    """
+    Return the timesteps at which theory places the boundaries.
+
+    Parameters
+    ----------
+    body
+        What coasts.
+    drag
+        ``quadratic``, ``linear``, or empty.
+    integrator
+        Name of the integrator.
+
+    Returns
+    -------
+    dict
+        [s] by name; empty where the integrator does not take drag explicitly.
+
+    """
     if integrator not in EXPLICIT or not drag:
         return {}
     unit = body.drag_number(1.0)

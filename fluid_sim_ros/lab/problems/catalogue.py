@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.problems import closed_forms, plates, scene_problems, solved_bodies
-from fluid_sim_ros.lab.problems.problem import Problem, of_scene
+from fluid_sim_ros.lab.problems.from_scene import of_scene
+from fluid_sim_ros.lab.problems.problem import Problem
 from fluid_sim_ros.scene import scene_names
 
 #: Problems of the laboratory; every scene is one too.
@@ -23,6 +24,16 @@ PROBLEMS: dict[str, Callable[[], Problem]] = {
 def problem(name: str) -> Problem:
     """
     Return a problem by name, or the one that a scene (name or path) is.
+
+    Parameters
+    ----------
+    name
+        One of PROBLEMS, or name or path of a scene.
+
+    Returns
+    -------
+    Problem
+        The problem.
 
     Raises
     ------

@@ -28,7 +28,24 @@ RUNGS = ('none', 'inertia', 'ellipsoid', '+ buoyancy', '+ added inertia')
 
 
 def scene_of(name: str, mjcf: str, body: str = 'hull') -> Scene:
-    """Return a scene of one vehicle from text, starting at its keyframe ``start``."""
+    """
+    Return a scene of one vehicle from text, starting at its keyframe ``start``.
+
+    Parameters
+    ----------
+    name
+        Of the scene.
+    mjcf
+        Text of the model, with a keyframe ``start``.
+    body
+        Name of the vehicle's base in it.
+
+    Returns
+    -------
+    Scene
+        One vehicle, ``hull``, without thrusters.
+
+    """
     return Scene(
         name=name,
         model_path=Path(f'{name}.xml'),
@@ -39,7 +56,24 @@ def scene_of(name: str, mjcf: str, body: str = 'hull') -> Scene:
 
 
 def keyframe(qpos: ArrayLike, qvel: ArrayLike, ctrl: str = '') -> str:
-    """Return the element of the start state."""
+    """
+    Return the element of the start state.
+
+    Parameters
+    ----------
+    qpos
+        Coordinates [m], [rad], quaternions w x y z; shape (nq,).
+    qvel
+        Velocities [m/s], [rad/s]; shape (nv,).
+    ctrl
+        Attribute ``ctrl="..."``, or empty.
+
+    Returns
+    -------
+    str
+        A ``<keyframe>`` element.
+
+    """
     return (
         f'<keyframe><key name="start" qpos="{text(qpos)}" qvel="{text(qvel)}" {ctrl}/></keyframe>'
     )
@@ -59,7 +93,40 @@ def ellipsoid_rungs(
     place: Callable[[str], str] = free_body,
     qpos: ArrayLike = (0, 0, 0, 1, 0, 0, 0),
 ) -> dict[str, Rung]:
-    """Return the rungs of a body that is one ellipsoid; ``place`` puts it into the world."""
+    """
+    Return the rungs of a body that is one ellipsoid.
+
+    Parameters
+    ----------
+    name
+        Of the scenes.
+    axes
+        Semi-axes [m], shape (3,).
+    density
+        Of the body [kg/m^3].
+    fluid
+        Density of the fluid [kg/m^3].
+    viscosity
+        Of the fluid [Pa s].
+    coef
+        MuJoCo's five ``fluidcoef`` [-]: blunt, slender, angular, Kutta, Magnus.
+    gravity
+        Downward [m/s^2].
+    qvel
+        Velocities at the start [m/s], [rad/s], shape (nv,).
+    rungs
+        Which ones, poorest first.
+    place
+        Puts the geom (MJCF text) into a body of the world.
+    qpos
+        Coordinates at the start [m], [rad], shape (nq,).
+
+    Returns
+    -------
+    dict
+        Rung by name, poorest first.
+
+    """
     plugins: dict[str, dict[str, Any]] = {
         '+ buoyancy': {'volume': 'auto'},
         '+ added inertia': {'volume': 'auto', 'added_mass': 'auto'},
@@ -80,7 +147,20 @@ def ellipsoid_rungs(
 
 
 def level_states(count: int) -> Array:
-    """Return states of one vehicle at rest at the origin, level, shape (count, 1, 13)."""
+    """
+    Return states of one vehicle at rest at the origin, level.
+
+    Parameters
+    ----------
+    count
+        Number of times.
+
+    Returns
+    -------
+    Array
+        Columns as in ``problem``: position, quaternion, velocity, rate; shape (count, 1, 13).
+
+    """
     states = np.zeros((count, 1, STATE_WIDTH))
     states[..., QUATERNION.start] = 1
     return states

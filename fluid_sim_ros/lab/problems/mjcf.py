@@ -11,12 +11,38 @@ FIRST_ORDER = ('Euler', 'implicit', 'implicitfast', 'discrete')
 
 
 def text(values: ArrayLike) -> str:
-    """Return numbers with all their digits, as MJCF wants them."""
+    """
+    Return numbers with all their digits, as MJCF wants them.
+
+    Parameters
+    ----------
+    values
+        Numbers of any shape.
+
+    Returns
+    -------
+    str
+        The numbers, separated by spaces.
+
+    """
     return ' '.join(f'{value:.17g}' for value in np.asarray(values, dtype=float).reshape(-1))
 
 
 def config(values: Mapping[str, Any]) -> str:
-    """Return the <config> elements of a plugin instance."""
+    """
+    Return the <config> elements of a plugin instance.
+
+    Parameters
+    ----------
+    values
+        Value by key: a text, or numbers of any shape.
+
+    Returns
+    -------
+    str
+        Elements, one behind the other.
+
+    """
     lines = []
     for key, value in values.items():
         written = value if isinstance(value, str) else text(value)
@@ -25,12 +51,42 @@ def config(values: Mapping[str, Any]) -> str:
 
 
 def body_plugin(**values: Any) -> str:
-    """Return the element that puts fluid_sim.body on the body around it."""
+    """
+    Return the element that puts fluid_sim.body on the body around it.
+
+    Parameters
+    ----------
+    values
+        Configuration of the plugin by key.
+
+    Returns
+    -------
+    str
+        A ``<plugin>`` element.
+
+    """
     return f'<plugin plugin="fluid_sim.body">{config(values)}</plugin>'
 
 
 def ellipsoid(size: ArrayLike, density: float, coef: ArrayLike = (0, 0, 0, 0, 0)) -> str:
-    """Return an ellipsoid geom that takes part in the fluid."""
+    """
+    Return an ellipsoid geom that takes part in the fluid.
+
+    Parameters
+    ----------
+    size
+        Semi-axes [m], shape (3,).
+    density
+        [kg/m^3].
+    coef
+        MuJoCo's five ``fluidcoef`` [-].
+
+    Returns
+    -------
+    str
+        A ``<geom>`` element.
+
+    """
     return (
         f'<geom type="ellipsoid" size="{text(size)}" density="{text(density)}" '
         f'fluidshape="ellipsoid" fluidcoef="{text(coef)}" contype="0" conaffinity="0"/>'
@@ -48,7 +104,32 @@ def world(
     medium: Mapping[str, Any] | None = None,
     extra: str = '',
 ) -> str:
-    """Return MJCF with both plugins declared; ``medium`` None leaves fluid_sim.medium out."""
+    """
+    Return MJCF of a world with the plugins declared.
+
+    Parameters
+    ----------
+    bodies
+        Elements of the bodies.
+    integrator
+        Name of the integrator.
+    timestep
+        [s].
+    gravity
+        World axes [m/s^2], shape (3,).
+    option, flag
+        More attributes of ``<option>`` and of ``<flag>``.
+    medium
+        Configuration of ``fluid_sim.medium``; None leaves the plugin out.
+    extra
+        More elements, such as keyframes and actuators.
+
+    Returns
+    -------
+    str
+        The whole text.
+
+    """
     instance = '' if medium is None else f'<instance name="fluid">{config(medium)}</instance>'
     if medium is not None:
         instance = f'<plugin plugin="fluid_sim.medium">{instance}</plugin>'
@@ -59,5 +140,22 @@ gravity="{text(gravity)}" {option}><flag contact="disable" {flag}/></option>
 
 
 def free_body(inside: str, *, name: str = 'hull', position: ArrayLike = (0, 0, 0)) -> str:
-    """Return a body with a free joint whose whole inertia matrix MuJoCo stores."""
+    """
+    Return a body with a free joint whose whole inertia matrix MuJoCo stores.
+
+    Parameters
+    ----------
+    inside
+        Elements of the body.
+    name
+        Of the body.
+    position
+        In the world [m], shape (3,).
+
+    Returns
+    -------
+    str
+        A ``<body>`` element.
+
+    """
     return f'<body name="{name}" pos="{text(position)}" simple="false"><freejoint/>{inside}</body>'

@@ -15,7 +15,22 @@ START = (0.0, 0.0, 0.3, 0.01, -0.01, 0.01)  # x, y, angle, velocity and spin: th
 
 
 def speed_scale(inertia: float, beta: float = BETA) -> float:
-    """Return U = sqrt((rho_s/rho_f - 1) g b) [m/s] for I* = rho_s b/(rho_f a)."""
+    """
+    Return U = sqrt((rho_s/rho_f - 1) g b) [m/s] for I* = rho_s b/(rho_f a).
+
+    Parameters
+    ----------
+    inertia
+        I* = rho_s b/(rho_f a) [-].
+    beta
+        b/a, thickness over width [-].
+
+    Returns
+    -------
+    float
+        U [m/s].
+
+    """
     return float(np.sqrt((inertia / beta - 1) * G * beta * A))
 
 
@@ -25,6 +40,19 @@ def coefficients(inertia: float, beta: float) -> tuple[float, ...]:
 
     Its volume is 4/3 pi a^2 b where the plate has pi a b SPAN, its swept inertia 8 pi/15 a^5; the
     two equal long axes keep the slender coefficient out of the angular drag.
+
+    Parameters
+    ----------
+    inertia
+        I* [-].
+    beta
+        b/a [-].
+
+    Returns
+    -------
+    tuple
+        Five numbers [-].
+
     """
     p = PlateParams(inertia)
     volume_ratio = np.pi * A * SPAN / (4 / 3 * np.pi * A * A)
@@ -38,7 +66,22 @@ def coefficients(inertia: float, beta: float) -> tuple[float, ...]:
 
 
 def start_state(inertia: float, beta: float = BETA) -> tuple[Array, Array]:
-    """Return qpos [m], [rad] and qvel [m/s], [rad/s] of START, shape (3,) each."""
+    """
+    Return START in the joints' coordinates.
+
+    Parameters
+    ----------
+    inertia
+        I* [-].
+    beta
+        b/a [-].
+
+    Returns
+    -------
+    qpos, qvel
+        x, z [m] and angle [rad]; their rates [m/s], [rad/s]; shape (3,) each.
+
+    """
     x, y, angle, vx, vy, spin = START
     scale, cosine, sine = speed_scale(inertia, beta), np.cos(angle), np.sin(angle)
     qvel = scale * np.array([vx * cosine - vy * sine, vx * sine + vy * cosine, spin / A])
@@ -51,6 +94,23 @@ def plate_mjcf(inertia: float, *, plugin: bool, beta: float = BETA, timestep: fl
 
     Per unit span the model has the units pi rho a^2 (mass), pi rho a^4 (inertia), a U (circulation
     over pi) and so on: added mass 1 across the plate, none along it, added inertia 1/8.
+
+    Parameters
+    ----------
+    inertia
+        I* [-].
+    plugin
+        With the forces of ``fluid_sim.body``, or stock MuJoCo's.
+    beta
+        b/a [-].
+    timestep
+        [s].
+
+    Returns
+    -------
+    str
+        The whole model.
+
     """
     scale = speed_scale(inertia, beta)
     mass = np.pi * FLUID * inertia * A**2 * SPAN
@@ -85,7 +145,22 @@ def plate_mjcf(inertia: float, *, plugin: bool, beta: float = BETA, timestep: fl
 
 
 def plate_states(inertia: float, times: Array) -> Array:
-    """Return the paper's motion as states at times [s], shape (n, 1, 13)."""
+    """
+    Return the paper's motion.
+
+    Parameters
+    ----------
+    inertia
+        I* [-].
+    times
+        Rising from 0 [s], shape (n,).
+
+    Returns
+    -------
+    Array
+        States, shape (n, 1, 13).
+
+    """
     scale = speed_scale(inertia)
     solution = solve_ivp(
         falling_plate_rhs, (0, times[-1] * scale / A), START, method='DOP853',

@@ -1,16 +1,14 @@
 """A problem: something that moves in a fluid, what is known of its motion, and its models."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError, DivergedError, ModelError
+from fluid_sim_ros.errors import ConfigError, DivergedError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene import Scene
-from fluid_sim_ros.scene.fluid_models import has_body_plugins
-from fluid_sim_ros.schema.settings import FLUID_RUNGS
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact, whole_steps
 
@@ -30,7 +28,22 @@ class Rung(NamedTuple):
     fluid: str | None = None
 
     def simulation(self, integrator: str, timestep: float) -> Simulation:
-        """Return the model at its start."""
+        """
+        Return the model at its start.
+
+        Parameters
+        ----------
+        integrator
+            Name of the integrator.
+        timestep
+            [s].
+
+        Returns
+        -------
+        Simulation
+            At time 0.
+
+        """
         return Simulation(self.scene, integrator=integrator, timestep=timestep, fluid=self.fluid)
 
 
@@ -87,12 +100,43 @@ class Problem:
         return list(self.rungs)[-1]
 
     def rung(self, name: str) -> Rung:
-        """Return a rung by name; ConfigError with the names that there are."""
+        """
+        Return a rung by name.
+
+        Parameters
+        ----------
+        name
+            Of the rung.
+
+        Returns
+        -------
+        Rung
+            The rung.
+
+        Raises
+        ------
+        ConfigError
+            For another name, with those that there are.
+
+        """
         if name not in self.rungs:
             raise ConfigError(
                 f"{self.name}: rung '{name}' is not known; it has: {', '.join(self.rungs)}"
             )
         return self.rungs[name]
+
+
+class Setting(NamedTuple):
+    """One way to run a problem."""
+
+    rung: str
+    integrator: str
+    timestep: float  # [s]
+
+    @property
+    def evaluations(self) -> float:
+        """How often the forces are evaluated per simulated second [1/s]."""
+        return (4 if self.integrator == 'RK4' else 1) / self.timestep
 
 
 class Trajectory(NamedTuple):
@@ -114,8 +158,30 @@ def run_rung(
     """
     Run one model over the problem's duration, every step watched.
 
-    ``nudge`` is added to all velocities at the start [m/s], [rad/s]: a motion that is sensitive
-    to its start shows it.
+    Parameters
+    ----------
+    problem
+        Says for how long, and at which times states are kept.
+    rung
+        The model.
+    integrator
+        Name of the integrator.
+    timestep
+        [s]; it must divide the problem's ``sample``.
+    nudge
+        Added to all velocities at the start [m/s], [rad/s]: a motion that is sensitive to its
+        start shows it.
+
+    Returns
+    -------
+    Trajectory
+        The run; one that blows up ends early, with the watchdog's line.
+
+    Raises
+    ------
+    ConfigError
+        If the timestep does not divide the sample.
+
     """
     between = whole_steps(problem.sample, timestep, f'{problem.name}: sample')
     simulation = rung.simulation(integrator, timestep)
@@ -132,72 +198,47 @@ def run_rung(
 
 
 def observed(simulation: Simulation) -> Array:
-    """Return the state of every vehicle at this step boundary, shape (vehicles, 13)."""
+    """
+    Return the state of every vehicle at this step boundary.
+
+    Parameters
+    ----------
+    simulation
+        Whose vehicles.
+
+    Returns
+    -------
+    Array
+        World position [m], quaternion w x y z, velocity [m/s] and rate [rad/s] in body axes, shape
+        (vehicles, 13).
+
+    """
     return simulation.observe(forces=False)[:, :STATE_WIDTH].copy()
 
 
 def fits(rung: Rung, timestep: float, sample: float) -> bool:
-    """Return whether a timestep divides the sample and the scene's events and gaits."""
+    """
+    Return whether a timestep divides the sample and the scene's events and gaits.
+
+    Parameters
+    ----------
+    rung
+        Whose scene has the events and gaits.
+    timestep
+        [s].
+    sample
+        Time between two compared states [s].
+
+    Returns
+    -------
+    bool
+        Whether it divides all of them.
+
+    """
     if (exact(sample) / exact(timestep)).denominator != 1:
         return False
     try:
         rung.scene.compile(timestep=timestep)
     except ConfigError:
-        return False
-    return True
-
-
-def of_scene(scene: str | Scene, duration: float | None = None) -> Problem:
-    """
-    Return the problem that a scene is: its own manoeuvre, against its own converged run.
-
-    The rungs are those of ``scene.fluid_models`` below the model's own, poorest first, and last
-    ``scene``, the model's own; what the scene's file says of the settings does not count.
-    Timesteps reach from 1/40 to 25 times the model's own.
-    """
-    loaded = replace(Scene.load(scene), fluid=None, timestep=None, integrator=None)
-    rungs = {name: Rung(loaded, name) for name in _poorer(loaded)} | {'scene': Rung(loaded)}
-    own = float(loaded.compile().model.opt.timestep)
-    seconds = loaded.duration if duration is None else duration
-    sample = 0.1 if seconds >= 1 else 0.01
-    if seconds < sample:
-        raise ConfigError(
-            f'{loaded.name}: duration {seconds:g} s: at least {sample:g} s are needed to compare'
-        )
-    seconds = round(seconds / sample) * sample
-    steps = tuple(
-        h for h in (*TIMESTEPS, 2e-5, 1e-5, 5e-6, 2e-6)
-        if own / 40.1 <= h <= own * 25.1 and fits(rungs['scene'], h, sample)
-    )  # fmt: skip
-    if not steps:
-        raise ConfigError(f'{loaded.name}: no timestep of 1, 2, 5 times a power of ten fits it')
-    return Problem(
-        name=loaded.name,
-        title=loaded.description or loaded.name,
-        stands_for=f'the manoeuvre of the scene {loaded.name}',
-        duration=float(f'{seconds:.9g}'),
-        rungs=rungs,
-        sample=sample,
-        timesteps=steps,
-    )
-
-
-def _poorer(scene: Scene) -> list[str]:
-    """Return the fluid rungs that lie below a scene's own model."""
-    model = scene.compile().model
-    stock = model.opt.density > 0 or model.opt.viscosity > 0
-    if has_body_plugins(scene.read_model()):
-        below = list(FLUID_RUNGS)
-    elif stock and np.any(model.geom_fluid[:, 0] > 0):
-        below = ['none', 'inertia']
-    else:
-        below = ['none']
-    return [name for name in below if _rung_compiles(scene, name)]
-
-
-def _rung_compiles(scene: Scene, fluid: str) -> bool:
-    try:
-        scene.compile(fluid=fluid)
-    except (ConfigError, ModelError):
         return False
     return True

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from fluid_sim_ros.lab.problems.problem import Problem, of_scene
+from fluid_sim_ros.lab.problems.from_scene import of_scene
+from fluid_sim_ros.lab.problems.problem import Problem
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.turbulence import Dryden
 

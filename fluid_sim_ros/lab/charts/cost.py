@@ -10,7 +10,7 @@ for a while slows down all of them.
 
 import random
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import Any, NamedTuple
 
@@ -18,10 +18,9 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, DivergedError
 from fluid_sim_ros.lab.problems.problem import Problem
+from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import duration_steps
-
-Report = Callable[[str, int, int], None]  # what is being done, how far, of how many
 
 #: Bursts per curve, one a round.
 ROUNDS = 60
@@ -51,7 +50,20 @@ class StepCost(NamedTuple):
     wall_high: float
 
     def per_second(self, timestep: float) -> dict[str, float]:
-        """Return the cost of a simulated second [us/s]."""
+        """
+        Return the cost of a simulated second [us/s].
+
+        Parameters
+        ----------
+        timestep
+            [s].
+
+        Returns
+        -------
+        dict
+            Medians and quartiles of processor and wall time [us per simulated second], by name.
+
+        """
         names = (
             'cpu_us_per_s', 'cpu_quartile_low_us_per_s', 'cpu_quartile_high_us_per_s',
             'wall_us_per_s', 'wall_quartile_low_us_per_s', 'wall_quartile_high_us_per_s',
@@ -63,13 +75,35 @@ def step_costs(
     problem: Problem,
     curves: Mapping[Curve, float],
     rounds: int = ROUNDS,
-    report: Report = lambda what, done, total: None,
+    report: Report = silent,
 ) -> dict[Curve, StepCost]:
     """
-    Return the cost of a step of each curve, measured at the given timestep [s].
+    Return the cost of a step of each curve.
 
     A curve is stepped through the problem's whole duration, again and again; one that is lost
-    starts anew. ConfigError for less than one round.
+    starts anew.
+
+    Parameters
+    ----------
+    problem
+        What is stepped.
+    curves
+        Curves, each with the timestep at which it is measured [s].
+    rounds
+        Timed bursts of each curve.
+    report
+        Told how far the measurement is.
+
+    Returns
+    -------
+    dict
+        Cost of a step by curve.
+
+    Raises
+    ------
+    ConfigError
+        For less than one round.
+
     """
     if rounds < 1:
         raise ConfigError(f'{rounds} timed bursts per curve: must be at least 1')

@@ -6,15 +6,17 @@ from dataclasses import replace
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns, Setting
-from fluid_sim_ros.lab.cost import Curve, Report, StepCost, step_costs
-from fluid_sim_ros.lab.manoeuvre import judged_part
-from fluid_sim_ros.lab.measure import conditions
-from fluid_sim_ros.lab.metrics import METRICS, metric
-from fluid_sim_ros.lab.pareto import tie
-from fluid_sim_ros.lab.problems.problem import Problem, fits, of_scene, run_rung
-from fluid_sim_ros.lab.reference import Reference, find_reference
-from fluid_sim_ros.lab.search import LADDER, Candidate, search, with_limit
+from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
+from fluid_sim_ros.lab.advisor.manoeuvre import judged_part
+from fluid_sim_ros.lab.advisor.reference import Reference, find_reference
+from fluid_sim_ros.lab.advisor.search import LADDER, Candidate, search, with_limit
+from fluid_sim_ros.lab.charts.cost import Curve, StepCost, step_costs
+from fluid_sim_ros.lab.charts.pareto import tie
+from fluid_sim_ros.lab.metrics import METRICS
+from fluid_sim_ros.lab.problems.from_scene import of_scene
+from fluid_sim_ros.lab.problems.problem import Problem, Setting, fits
+from fluid_sim_ros.lab.progress import Report, silent
+from fluid_sim_ros.lab.results import conditions
 from fluid_sim_ros.scene import Scene
 
 #: How far below the model's own timestep the search goes.
@@ -37,7 +39,7 @@ def advise(
     metric_name: str = 'pose',
     rate: float = 100.0,
     budget: float = BUDGET,
-    report: Report = lambda what, done, total: None,
+    report: Report = silent,
 ) -> dict[str, Any]:
     """
     Return the advice for a scene as data, ready for JSON.
@@ -56,6 +58,14 @@ def advise(
         The timestep must divide its period: of control and outputs [Hz].
     budget
         Time for runs [s]; what it leaves out is said.
+    report
+        Told how far it is.
+
+    Returns
+    -------
+    dict
+        The choice and the other candidates, what was tried, refused and left out, the reference
+        they are compared with, and what costs depend on.
 
     Raises
     ------
@@ -64,7 +74,7 @@ def advise(
 
     """
     _check(tolerance, metric_name, rate, budget)
-    problem = _problem(scene, duration, rate)
+    problem = scene_problem(scene, duration, rate)
     own = float(problem.rungs[problem.richest].scene.compile().model.opt.timestep)
     first = max((h for h in problem.timesteps if h <= own), default=problem.timesteps[-1])
     judged = judged_part(problem, first)
@@ -111,94 +121,6 @@ def advise(
     }
 
 
-def verify(scene: str | Scene, advice: dict[str, Any]) -> dict[str, Any]:
-    """Compare the choice with a run of a fourth of its step and the next richer rung."""
-    choice = advice['choice']
-    problem = _problem(scene, advice['duration_s'], advice['rate_hz'])
-    rungs = list(problem.rungs)
-    richer = rungs[min(rungs.index(choice['rung']) + 1, len(rungs) - 1)]
-    chosen = run_rung(
-        problem, problem.rungs[choice['rung']], choice['integrator'], choice['timestep']
-    )
-    finer = run_rung(problem, problem.rungs[richer], choice['integrator'], choice['timestep'] / 4)
-    lost = chosen.fault or finer.fault
-    error = math.inf
-    if not lost:
-        error = metric(advice['metric'], problem, finer.states)(chosen.states, finer.states)
-    return {
-        'rung': richer, 'timestep': choice['timestep'] / 4, 'fault': lost,
-        'error': error if math.isfinite(error) else None, 'within': error <= advice['tolerance'],
-    }  # fmt: skip
-
-
-def settings(advice: dict[str, Any]) -> dict[str, Any]:
-    """Return the keys of a scene file that hold the choice."""
-    choice = advice['choice']
-    found = {'timestep': choice['timestep'], 'integrator': choice['integrator']}
-    return found if choice['rung'] == 'scene' else found | {'fluid': choice['rung']}
-
-
-def comment(advice: dict[str, Any]) -> str:
-    """
-    Return one line on where the choice comes from.
-
-    Parameters
-    ----------
-    advice
-        As ``advise`` returns it, with a choice.
-
-    Returns
-    -------
-    str
-        The command, and the relative error of what it chose.
-
-    """
-    return f'{advice["command"]}: error {advice["choice"]["error"]:.2g} ({advice["metric"]})'
-
-
-def snippet(advice: dict[str, Any]) -> str:
-    """
-    Return the lines that put the choice in force in the scene's YAML file.
-
-    Parameters
-    ----------
-    advice
-        As ``advise`` returns it, with a choice.
-
-    Returns
-    -------
-    str
-        A comment and the keys of ``settings``.
-
-    """
-    lines = [f'{key}: {value}\n' for key, value in settings(advice).items()]
-    return ''.join([f'# {comment(advice)}\n', *lines])
-
-
-def advised(advice: dict[str, Any]) -> dict[str, Any]:
-    """
-    Return the advised settings that the scene's YAML file can keep.
-
-    Parameters
-    ----------
-    advice
-        As ``advise`` returns it, with a choice.
-
-    Returns
-    -------
-    dict
-        The fields of ``schema.advised.Advised``.
-
-    """
-    return {
-        'command': advice['command'],
-        'tolerance': advice['tolerance'],
-        'metric': advice['metric'],
-        'error': float(f'{advice["choice"]["error"]:.2g}'),
-        **settings(advice),
-    }
-
-
 def _check(tolerance: float, metric_name: str, rate: float, budget: float) -> None:
     if not 0 < tolerance < 1:
         raise ConfigError(f'tolerance {tolerance:g}: must be above 0 and below 1 (0.01 is 1 %)')
@@ -221,8 +143,30 @@ def _command(
     return command if rate == 100 else f'{command} --rate {rate:g}'
 
 
-def _problem(scene: str | Scene, duration: float | None, rate: float) -> Problem:
-    """Return the scene's problem with the timesteps that fit the rate, its events and gaits."""
+def scene_problem(scene: str | Scene, duration: float | None, rate: float) -> Problem:
+    """
+    Return the scene's problem with the timesteps that fit the rate, its events and gaits.
+
+    Parameters
+    ----------
+    scene
+        Name, path, or ``Scene``.
+    duration
+        Simulated time [s]; None: the scene's.
+    rate
+        The timestep must divide its period [Hz].
+
+    Returns
+    -------
+    Problem
+        The problem, with timesteps down to a tenth of the model's own.
+
+    Raises
+    ------
+    ConfigError
+        For a duration that is not finite and above 0, or if no timestep fits.
+
+    """
     if duration is not None and not 0 < duration < math.inf:
         raise ConfigError(f'duration {duration:g} s: must be finite and above 0')
     problem = of_scene(scene, duration)

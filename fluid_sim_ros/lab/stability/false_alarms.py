@@ -15,6 +15,17 @@ def random_run(rng: np.random.Generator) -> tuple[Body, str, float]:
 
     Half of them tumble, by RK4, with or without drag and added mass; half are braked along their
     axis, by any integrator: a first-order one feeds a tumbling motion at every step size.
+
+    Parameters
+    ----------
+    rng
+        Source of the draws.
+
+    Returns
+    -------
+    body, integrator, timestep
+        What to run, by which integrator, at which timestep [s].
+
     """
     tumbling = bool(rng.integers(2))
     body = Body(

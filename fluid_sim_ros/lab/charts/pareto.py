@@ -27,7 +27,22 @@ class Tie(NamedTuple):
 
 
 def tie(ratios: Iterable[float], limits: tuple[float, float]) -> Tie:
-    """Return the middle (geometric) of the widest gap between ratios within limits."""
+    """
+    Return the middle (geometric) of the widest gap between ratios within limits.
+
+    Parameters
+    ----------
+    ratios
+        Ratios of costs on which a decision hangs [-].
+    limits
+        Lowest and highest factor.
+
+    Returns
+    -------
+    Tie
+        The factor, and how far the nearest ratio is.
+
+    """
     low, high = limits
     marks = [low, *sorted(ratio for ratio in ratios if low < ratio < high), high]
     below, above = max(pairwise(marks), key=lambda pair: pair[1] / pair[0])
@@ -35,7 +50,22 @@ def tie(ratios: Iterable[float], limits: tuple[float, float]) -> Tie:
 
 
 def kept(factor: float, ratios: Iterable[float]) -> Tie | None:
-    """Return a factor of an earlier measurement, None where a ratio has come near it."""
+    """
+    Return a factor of an earlier measurement, None where a ratio has come near it.
+
+    Parameters
+    ----------
+    factor
+        Of the earlier measurement [-].
+    ratios
+        Ratios of costs on which a decision hangs now [-].
+
+    Returns
+    -------
+    Tie or None
+        The factor, and how far the nearest ratio is.
+
+    """
     clear = min(
         (max(ratio / factor, factor / ratio) for ratio in ratios if ratio > 0), default=2.0
     )
@@ -43,7 +73,22 @@ def kept(factor: float, ratios: Iterable[float]) -> Tie | None:
 
 
 def judged(point: dict[str, Any], by: str) -> float | None:
-    """Return the error that a point is judged by, None where the run failed."""
+    """
+    Return the error that a point is judged by.
+
+    Parameters
+    ----------
+    point
+        Of a chart.
+    by
+        Name of the error: the chart's ``judged_by``.
+
+    Returns
+    -------
+    float or None
+        In the unit of the error; None where the run failed.
+
+    """
     error = point['error']
     return None if error is None else float(error[by])
 
@@ -55,6 +100,21 @@ def mark_front(points: Sequence[dict[str, Any]], by: str, before: float | None =
     A point is on the front where every more accurate one costs more than the tie factor times as
     much. Of points with equal errors the first one stays (the poorest model: points are in the
     order of the ladder), unless a later one is cheaper by more than the factor.
+
+    Parameters
+    ----------
+    points
+        Of a chart, in the order of the ladder, with costs; each gets ``pareto``.
+    by
+        Name of the error that counts.
+    before
+        Tie factor of an earlier measurement of the same chart.
+
+    Returns
+    -------
+    Tie
+        The factor within which costs are equal.
+
     """
     rows = [(judged(point, by), float(point['cpu_us_per_s'])) for point in points]
     dearer = [_price_of_more(rows, place) for place in range(len(rows))]

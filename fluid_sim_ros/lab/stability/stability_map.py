@@ -2,22 +2,19 @@
 
 import itertools
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.cost import Report
-from fluid_sim_ros.lab.measure import conditions
-from fluid_sim_ros.lab.outcomes import one_step, outcome
-from fluid_sim_ros.lab.problems.bodies import AXES, Body, Family, family
-from fluid_sim_ros.lab.problems.boundaries import critical
+from fluid_sim_ros.lab.problems.bodies import AXES, Body, family
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS
+from fluid_sim_ros.lab.progress import Report, silent
+from fluid_sim_ros.lab.results import conditions
+from fluid_sim_ros.lab.stability.outcomes import outcome
 
-#: Bisection ends when the timestep is known to this factor.
-_PRECISION = 1.05
 Key = tuple[str, float, float]
 
 
@@ -34,6 +31,26 @@ def plan(
 ) -> dict[str, Any]:
     """
     Return what a map runs over, ready for JSON: the head of its file.
+
+    Parameters
+    ----------
+    name
+        One of FAMILIES.
+    x, y
+        Axes of the map, of AXES; empty: those of the family.
+    x_range, y_range
+        Lowest and highest value; empty: those of the axis.
+    cells
+        Per axis.
+    integrators
+        Names of integrators.
+    fixed
+        Parameters that stay the same, by name of AXES.
+
+    Returns
+    -------
+    dict
+        What ``run_map`` takes.
 
     Raises
     ------
@@ -69,7 +86,22 @@ def plan(
 
 
 def values(head: Mapping[str, Any], axis: str) -> list[float]:
-    """Return the values of an axis of a map, ``x`` or ``y``: middles of its cells."""
+    """
+    Return the values of an axis of a map, ``x`` or ``y``: middles of its cells.
+
+    Parameters
+    ----------
+    head
+        Of the map.
+    axis
+        ``x`` or ``y``.
+
+    Returns
+    -------
+    list
+        In the unit of the axis, rising; logarithmically spaced.
+
+    """
     low, high = np.log(head[f'{axis}_range'])
     middles = (np.arange(head['cells']) + 0.5) / head['cells']
     return [float(f'{value:.9g}') for value in np.exp(low + (high - low) * middles)]
@@ -80,12 +112,28 @@ def run_map(
     path: Path,
     *,
     restart: bool = False,
-    report: Report = lambda what, done, total: None,
+    report: Report = silent,
 ) -> dict[str, Any]:
     """
     Run the cells of a map that its file does not have yet; return the whole map.
 
     The file has the head in its first line and one line per cell, written as the cell is done.
+
+    Parameters
+    ----------
+    head
+        As ``plan`` returns it.
+    path
+        File that keeps the cells.
+    restart
+        Whether to forget what the file has.
+    report
+        Told how far it is.
+
+    Returns
+    -------
+    dict
+        The head, the cells as ``map``, and what times depend on.
 
     Raises
     ------
@@ -143,78 +191,28 @@ def _kept(head: Mapping[str, Any], path: Path) -> dict[Key, dict[str, Any]]:
 
 def _cell(head: Mapping[str, Any], integrator: str, x: float, y: float) -> dict[str, Any]:
     given = {**head['fixed'], head['x']: x, head['y']: y}
-    found = outcome(_body(head, given), integrator, given.get('timestep', 0.01))
+    found = outcome(body_at(head, given), integrator, given.get('timestep', 0.01))
     return {
         'outcome': found.word, 'largest': min(found.largest, 1e300),
         'last': min(found.last, 1e300), 'reset_at_s': found.reset_at, 'alarm': found.alarm,
     }  # fmt: skip
 
 
-def _body(head: Mapping[str, Any], given: Mapping[str, float]) -> Body:
+def body_at(head: Mapping[str, Any], given: Mapping[str, float]) -> Body:
+    """
+    Return the body of one cell of a map.
+
+    Parameters
+    ----------
+    head
+        Of the map.
+    given
+        Parameters of the cell, by name of AXES.
+
+    Returns
+    -------
+    Body
+        The body.
+
+    """
     return family(head['problem']).body.with_values(given)
-
-
-def bisect(
-    accepts: Callable[[float], bool], low: float, high: float, precision: float = _PRECISION
-) -> float | None:
-    """
-    Return the timestep up to which all are accepted, to a factor ``precision``.
-
-    None where ``low`` is refused already; ``high`` where nothing is refused. Steps are doubled
-    up to the first that is refused, then halved in between.
-    """
-    if not accepts(low):
-        return None
-    while accepts(min(2 * low, high)):
-        if 2 * low >= high:
-            return high
-        low *= 2
-    high = min(2 * low, high)
-    while high / low > precision:
-        middle = float(np.sqrt(low * high))
-        low, high = (middle, high) if accepts(middle) else (low, middle)
-    return float(np.sqrt(low * high))
-
-
-def largest_steps(
-    head: Mapping[str, Any], report: Report = lambda what, done, total: None
-) -> list[dict[str, Any]]:
-    """Return the largest stable timestep at each value of y, where x is the timestep."""
-    low, high = head['x_range']
-    keys = list(itertools.product(head['integrators'], values(head, 'y')))
-    rows = []
-    for done, (integrator, y) in enumerate(keys):
-        report(f'{head["problem"]}: bisection', done, len(keys))
-        body = _body(head, {**head['fixed'], head['y']: y})
-
-        def stable(h: float, body: Body = body, kind: str = integrator) -> bool:
-            return outcome(body, kind, h).word == 'stable'
-
-        rows.append({'integrator': integrator, 'y': y, 'largest_s': bisect(stable, low, high)})
-    report(f'{head["problem"]}: bisection', len(keys), len(keys))
-    return rows
-
-
-def measured_numbers(kind: Family, integrator: str) -> dict[str, dict[str, float]]:
-    """
-    Return the drag number of each boundary, predicted and measured by bisection of one step.
-
-    Over three densities, so that the mass (and the added mass) is seen to be the right one.
-    """
-    out = {}
-    for name, number in critical(integrator, kind.drag).items():
-        found = []
-        for ratio in (0.01, 0.1, 1.0):
-            body = kind.body.with_values({'density_ratio': ratio})
-
-            def accepts(x: float, body: Body = body, name: str = name) -> bool:
-                gain = one_step(body, integrator, x / body.drag_number(1.0))
-                return gain > 0 if name == 'sign flip' else abs(gain) < 1
-
-            bound = bisect(accepts, number / 3, number * 3, 1.0001)
-            found.append(float('nan') if bound is None else bound)
-        out[name] = {
-            'predicted': number, 'measured': found[0],
-            'worst': max(abs(x / number - 1) for x in found),
-        }  # fmt: skip
-    return out

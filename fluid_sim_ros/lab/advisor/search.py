@@ -5,10 +5,10 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
-from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns, Setting
-from fluid_sim_ros.lab.cost import Report
-from fluid_sim_ros.lab.problems.problem import fits
-from fluid_sim_ros.lab.reference import Reference
+from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
+from fluid_sim_ros.lab.advisor.reference import Reference
+from fluid_sim_ros.lab.problems.problem import Setting, fits
+from fluid_sim_ros.lab.progress import Report
 
 #: Timesteps tried: 1, 2, 5 times powers of ten [s].
 LADDER = tuple(float(f'{digit}e{power}') for power in range(-2, -7, -1) for digit in (5, 2, 1))
@@ -38,6 +38,24 @@ def search(
     From the largest timestep down on every rung by every integrator, the poorest rung first. A
     rung whose own error is beyond the tolerance is left out, and so is what needs clearly more
     evaluations of the forces than a setting that is found.
+
+    Parameters
+    ----------
+    budgeted
+        Makes the runs.
+    reference
+        What they are compared with.
+    tolerance
+        Relative error to keep [-].
+    report
+        Told how far it is.
+
+    Returns
+    -------
+    candidates, refused
+        One candidate per rung and integrator that keeps the tolerance; of the others the best
+        setting, as rows.
+
     """
     problem = budgeted.problem
     found: list[Candidate] = []
@@ -116,7 +134,26 @@ def _largest_step(
 
 
 def with_limit(budgeted: BudgetedRuns, reference: Reference, candidate: Candidate) -> Candidate:
-    """Return a candidate with the timestep at which it fails, beyond those that fit the rate."""
+    """
+    Return a candidate with the timestep at which it fails.
+
+    Larger timesteps than those that fit the rate are tried, too.
+
+    Parameters
+    ----------
+    budgeted
+        Makes the runs.
+    reference
+        What they are compared with.
+    candidate
+        Whose limit is wanted.
+
+    Returns
+    -------
+    Candidate
+        With ``fails_at``, or how far was tried.
+
+    """
     if candidate.fails_at is not None:
         return candidate
     problem = budgeted.problem

@@ -33,6 +33,18 @@ def judged_part(problem: Problem, timestep: float) -> Judged:
     integration. A vehicle that stands on the ground at the start may leave it and is judged until
     it touches down; a run that is lost at this timestep is judged in full.
 
+    Parameters
+    ----------
+    problem
+        Whose manoeuvre it is; its richest model is run by RK4.
+    timestep
+        [s].
+
+    Returns
+    -------
+    Judged
+        For how long the manoeuvre can be judged, and why no longer.
+
     Raises
     ------
     ConfigError

@@ -43,7 +43,26 @@ class Outcome(NamedTuple):
 
 
 def coast(body: Body, integrator: str, timestep: float, looks: int = _LOOKS) -> Run:
-    """Run a body to its end, or to where MuJoCo resets it."""
+    """
+    Run a body to its end, or to where MuJoCo resets it.
+
+    Parameters
+    ----------
+    body
+        What coasts.
+    integrator
+        Name of the integrator.
+    timestep
+        [s].
+    looks
+        How often its energy is looked at, over the run.
+
+    Returns
+    -------
+    Run
+        Its energy over time.
+
+    """
     simulation = Simulation(body.scene(), integrator=integrator, timestep=timestep)
     steps = max(round(body.duration / timestep), _FEWEST_STEPS)
     every = max(1, steps // looks)
@@ -85,7 +104,24 @@ def _above(run: Run, course: Run) -> Array:
 
 
 def outcome(body: Body, integrator: str, timestep: float) -> Outcome:
-    """Return what becomes of a run, judged against the converged course of its energy."""
+    """
+    Return what becomes of a run, judged against the converged course of its energy.
+
+    Parameters
+    ----------
+    body
+        What coasts.
+    integrator
+        Name of the integrator.
+    timestep
+        [s].
+
+    Returns
+    -------
+    Outcome
+        The gravest word of OUTCOMES that fits.
+
+    """
     run = coast(body, integrator, timestep)
     facts = (float(run.energy.max()), float(run.energy[-1]), run.reset_at, run.alarm)
     if run.reset_at is not None:
@@ -101,7 +137,24 @@ def outcome(body: Body, integrator: str, timestep: float) -> Outcome:
 
 
 def one_step(body: Body, integrator: str, timestep: float) -> float:
-    """Return v1/v0 along the motion over the first step; nan where MuJoCo reset it."""
+    """
+    Return what one step makes of the velocity.
+
+    Parameters
+    ----------
+    body
+        What coasts.
+    integrator
+        Name of the integrator.
+    timestep
+        [s].
+
+    Returns
+    -------
+    float
+        v1/v0 along the motion [-]; nan where MuJoCo reset it.
+
+    """
     simulation = Simulation(body.scene(), integrator=integrator, timestep=timestep)
     start = float(simulation.data.qvel[0])
     try:

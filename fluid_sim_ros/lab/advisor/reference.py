@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.lab.budgeted_runs import BudgetedRuns, Setting
-from fluid_sim_ros.lab.cost import Report
+from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
 from fluid_sim_ros.lab.metrics import Metric, metric
 from fluid_sim_ros.lab.motion_errors import Sensitivity, sensitivity
-from fluid_sim_ros.lab.problems.problem import Problem, Trajectory
+from fluid_sim_ros.lab.problems.problem import Problem, Setting, Trajectory
+from fluid_sim_ros.lab.progress import Report
 
 #: RK4 converges fastest; where it fails (stiff drag), a method that stays bounded.
 _INTEGRATORS = ('RK4', 'implicitfast')
@@ -40,11 +40,37 @@ class Reference:
     refinements: list[dict[str, Any]]
 
     def known(self, tolerance: float) -> bool:
-        """Return whether the run is known well enough to judge by."""
+        """
+        Return whether the run is known well enough to judge by.
+
+        Parameters
+        ----------
+        tolerance
+            Relative error that settings are asked to keep [-].
+
+        Returns
+        -------
+        bool
+            Whether what the run does not know is a small part of that.
+
+        """
         return self.within <= _ENOUGH * tolerance
 
     def error(self, trajectory: Trajectory) -> float:
-        """Return the relative error of a run, inf where it was lost."""
+        """
+        Return the relative error of a run, inf where it was lost.
+
+        Parameters
+        ----------
+        trajectory
+            Another run of the problem.
+
+        Returns
+        -------
+        float
+            Its relative error [-]; inf where it was lost.
+
+        """
         return (
             math.inf
             if trajectory.fault
@@ -60,6 +86,24 @@ def find_reference(
 
     A motion that forgets its start (chaotic) is compared point by point as long as refinements
     agree to the tolerance, and else by its regime.
+
+    Parameters
+    ----------
+    budgeted
+        Makes the runs.
+    first
+        Largest timestep that is tried [s].
+    tolerance
+        Relative error that settings will be asked to keep [-].
+    metric_name
+        One of METRICS.
+    report
+        Told how far it is.
+
+    Returns
+    -------
+    Reference
+        The run, and how sure it is.
 
     Raises
     ------

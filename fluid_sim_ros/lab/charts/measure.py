@@ -3,19 +3,13 @@
 import copy
 import itertools
 import math
-import os
-import platform
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
-import mujoco
-
-from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.budgeted_runs import Setting
-from fluid_sim_ros.lab.convergence import (
+from fluid_sim_ros.lab.charts.convergence import (
     Converged,
     RunCache,
     converged_run,
@@ -23,7 +17,8 @@ from fluid_sim_ros.lab.convergence import (
     judged_error,
     orders,
 )
-from fluid_sim_ros.lab.cost import ROUNDS, Curve, Report, StepCost, step_costs
+from fluid_sim_ros.lab.charts.cost import ROUNDS, Curve, StepCost, step_costs
+from fluid_sim_ros.lab.charts.pareto import mark_front
 from fluid_sim_ros.lab.motion_errors import (
     Sensitivity,
     errors,
@@ -32,12 +27,11 @@ from fluid_sim_ros.lab.motion_errors import (
     sensitivity,
 )
 from fluid_sim_ros.lab.parallel import run_parallel
-from fluid_sim_ros.lab.pareto import mark_front
-from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Problem, Trajectory
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Problem, Setting, Trajectory
+from fluid_sim_ros.lab.progress import Report, silent
+from fluid_sim_ros.lab.results import conditions
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.step_clock import whole_steps
-
-_SILENT: Report = lambda what, done, total: None  # noqa: E731 (a default of several)
 
 
 def measure(
@@ -46,7 +40,7 @@ def measure(
     integrators: Sequence[str] = INTEGRATORS,
     timesteps: Sequence[float] = (),
     rounds: int = ROUNDS,
-    report: Report = _SILENT,
+    report: Report = silent,
 ) -> dict[str, Any]:
     """
     Return the whole chart of a problem as data, ready for JSON.
@@ -55,6 +49,26 @@ def measure(
     medians of ``rounds`` bursts in interleaved order: processor time, which other programs
     disturb less, and by which the front is marked; and wall time. A run that fails stays in the
     list, with the watchdog's line.
+
+    Parameters
+    ----------
+    problem
+        What is charted.
+    integrators
+        Names of integrators, in any case.
+    timesteps
+        [s]; empty: the problem's own.
+    rounds
+        Timed bursts of steps per curve.
+    report
+        Told how far the measurement is.
+
+    Returns
+    -------
+    dict
+        What the problem is, its reference and sensitivity, ``rungs`` with their model errors,
+        ``orders`` of convergence, costs, and ``points``: one for each rung, integrator and
+        timestep.
 
     Raises
     ------
@@ -107,12 +121,34 @@ def measure(
 
 
 def time_again(
-    result: dict[str, Any], problem: Problem, *, rounds: int = ROUNDS, report: Report = _SILENT
+    result: dict[str, Any], problem: Problem, *, rounds: int = ROUNDS, report: Report = silent
 ) -> dict[str, Any]:
     """
     Return a chart with its times measured anew, on this machine; its errors stay.
 
     So does the factor within which costs are equal, unless a ratio has come near it.
+
+    Parameters
+    ----------
+    result
+        A chart, as ``measure`` returns it.
+    problem
+        The problem that the chart is of.
+    rounds
+        Timed bursts of steps per curve.
+    report
+        Told how far the measurement is.
+
+    Returns
+    -------
+    dict
+        The chart with new times; ``result`` is not changed.
+
+    Raises
+    ------
+    ConfigError
+        If the chart has rungs that the problem does not have.
+
     """
     steps = sorted({point['timestep_s'] for point in result['points']}, reverse=True)
     problem = replace(problem, timesteps=tuple(steps))
@@ -159,17 +195,6 @@ def _described(
             name: _rung(problem, run, reference, chaotic=chaos.chaotic)
             for name, run in converged.items()
         },
-    }
-
-
-def conditions() -> dict[str, Any]:
-    """Return what times depend on."""
-    return {
-        'fluid_sim_ros': __version__,
-        'mujoco': mujoco.__version__,
-        'python': platform.python_version(),
-        'architecture': platform.machine(),
-        'cores': os.cpu_count(),
     }
 
 

@@ -5,9 +5,8 @@ import statistics
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from fluid_sim_ros.lab.budgeted_runs import Setting
 from fluid_sim_ros.lab.motion_errors import attitude_error, position_error
-from fluid_sim_ros.lab.problems.problem import Problem, Trajectory, fits, run_rung
+from fluid_sim_ros.lab.problems.problem import Problem, Setting, Trajectory, fits, run_rung
 from fluid_sim_ros.physics.arrays import Array
 
 #: Errors of the timestep alone are taken at this share of the run: later they fold back into
@@ -30,14 +29,35 @@ class Converged(NamedTuple):
 
 
 class RunCache:
-    """The runs of a problem, each made once (two threads may make the same one: no harm)."""
+    """
+    The runs of a problem, each made once (two threads may make the same one: no harm).
+
+    Parameters
+    ----------
+    problem
+        What is run.
+
+    """
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self._trajectories: dict[Setting, Trajectory] = {}
 
     def __call__(self, setting: Setting) -> Trajectory:
-        """Return the run of a setting."""
+        """
+        Return the run of a setting.
+
+        Parameters
+        ----------
+        setting
+            Which run.
+
+        Returns
+        -------
+        Trajectory
+            The run.
+
+        """
         if setting not in self._trajectories:
             rung = self.problem.rungs[setting.rung]
             self._trajectories[setting] = run_rung(self.problem, rung, *setting[1:])
@@ -45,7 +65,24 @@ class RunCache:
 
 
 def converged_run(runs_of: RunCache, rung: str) -> Converged:
-    """Run a rung by RK4 with smaller and smaller timesteps, to half the finest at most."""
+    """
+    Run a rung by RK4 with smaller and smaller timesteps until it no longer changes.
+
+    From 4 times the problem's finest timestep to half of it, at most.
+
+    Parameters
+    ----------
+    runs_of
+        Makes the runs.
+    rung
+        Name of the rung.
+
+    Returns
+    -------
+    Converged
+        The finest run that lasts, and its distance from the one before it.
+
+    """
     problem = runs_of.problem
     finest = problem.timesteps[-1]
     first, *finer = [
@@ -66,22 +103,65 @@ def converged_run(runs_of: RunCache, rung: str) -> Converged:
 
 
 def early(problem: Problem) -> int:
-    """Return the index of the time at which errors of the timestep are taken."""
+    """
+    Return the index of the time at which errors of the timestep are taken.
+
+    Parameters
+    ----------
+    problem
+        Whose compared times are meant.
+
+    Returns
+    -------
+    int
+        Index in ``problem.times``: a fifth of the run.
+
+    """
     return max(1, round(EARLY * (len(problem.times) - 1)))
 
 
 def judged_error(problem: Problem, states: Array, reference: Array, index: int = -1) -> float:
-    """Return the error that the problem is judged by, by default at the end."""
+    """
+    Return the error that the problem is judged by, by default at the end.
+
+    Parameters
+    ----------
+    problem
+        Says which error counts: ``position_m`` or ``attitude_rad``.
+    states, reference
+        Two motions at the problem's times, shape (n, vehicles, 13).
+    index
+        Which of the times.
+
+    Returns
+    -------
+    float
+        Largest error over the vehicles [m] or [rad].
+
+    """
     norm = attitude_error if problem.judged_by == 'attitude_rad' else position_error
     return float(norm(states, reference)[index])
 
 
 def orders(points: Sequence[dict[str, Any]], floors: dict[str, float]) -> dict[str, Any]:
     """
-    Return the order of convergence per rung and integrator, None where too few points show it.
+    Return the order of convergence in the timestep, per rung and integrator.
 
     Slope of log error over log timestep through the finest points that are clear of the converged
     run's own uncertainty.
+
+    Parameters
+    ----------
+    points
+        Points of a chart, with ``rung``, ``integrator``, ``timestep_s`` and ``discretisation``.
+    floors
+        Uncertainty of each rung's converged run [m] or [rad], by the rung's name.
+
+    Returns
+    -------
+    dict
+        Rung -> integrator -> order [-], None where too few points show it.
+
     """
     out: dict[str, dict[str, float | None]] = {}
     for point in points:

@@ -2,27 +2,21 @@
 
 import math
 import time
-from typing import Any, NamedTuple
+from typing import Any
 
-from fluid_sim_ros.lab.problems.problem import Problem, Trajectory, run_rung
-
-
-class Setting(NamedTuple):
-    """One way to run a problem."""
-
-    rung: str
-    integrator: str
-    timestep: float  # [s]
-
-    @property
-    def evaluations(self) -> float:
-        """How often the forces are evaluated per simulated second [1/s]."""
-        return (4 if self.integrator == 'RK4' else 1) / self.timestep
+from fluid_sim_ros.lab.problems.problem import Problem, Setting, Trajectory, run_rung
 
 
 class BudgetedRuns:
     """
-    Flies settings of one problem, each once, as long as the time lasts.
+    Runs settings of one problem, each once, as long as the time lasts.
+
+    Parameters
+    ----------
+    problem
+        What is run.
+    budget
+        Time for all runs [s] of wall time, from now on.
 
     Attributes
     ----------
@@ -43,9 +37,22 @@ class BudgetedRuns:
 
     def run(self, setting: Setting, share: float = 1.0) -> Trajectory | None:
         """
-        Run a setting; None where that would take more than ``share`` of the time left.
+        Return the run of a setting, made now or earlier.
 
         The first run is always made: how long one takes is not known before.
+
+        Parameters
+        ----------
+        setting
+            What is run.
+        share
+            Largest share of the time that is left that the run may take [-].
+
+        Returns
+        -------
+        Trajectory or None
+            The run; None where it would take longer.
+
         """
         if setting in self._trajectories:
             return self._trajectories[setting]
@@ -60,7 +67,19 @@ class BudgetedRuns:
         return trajectory
 
     def note(self, setting: Setting, trajectory: Trajectory, error: float) -> None:
-        """Record what became of a run; ``error`` is inf where it was lost."""
+        """
+        Record what became of a run.
+
+        Parameters
+        ----------
+        setting
+            What was run.
+        trajectory
+            The run.
+        error
+            Its relative error, as it is judged [-]; inf where it was lost.
+
+        """
         row = setting._asdict() | {
             'error': error if math.isfinite(error) else None,
             'fault': trajectory.fault,
@@ -69,7 +88,21 @@ class BudgetedRuns:
             self.tried.append(row)
 
     def leave_out(self, rung: str, integrator: str, timestep: float | None, why: str) -> None:
-        """Record what is not run: a rung, its integrators ('' for all), from a timestep down."""
+        """
+        Record what is not run.
+
+        Parameters
+        ----------
+        rung
+            Name of the rung.
+        integrator
+            Its integrator; empty for all of them.
+        timestep
+            From this timestep down [s]; None for all of them.
+        why
+            One line for a reader.
+
+        """
         self.not_tried.append(
             {'rung': rung, 'integrator': integrator, 'from_timestep': timestep, 'why': why}
         )

@@ -1,0 +1,1 @@
+"""The advisor: the cheapest setting of a scene that is accurate enough."""

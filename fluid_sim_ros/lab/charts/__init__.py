@@ -1,0 +1,1 @@
+"""Charts: what accuracy costs, for every model, integrator and timestep of a problem."""

@@ -1,0 +1,18 @@
+"""How the laboratory tells how far it is."""
+
+from collections.abc import Callable
+
+#: Takes what is being done, how far it is, and of how many.
+Report = Callable[[str, int, int], None]
+
+
+def silent(what: str, done: int, total: int) -> None:
+    """
+    Tell nobody: the default ``Report``.
+
+    Parameters
+    ----------
+    what, done, total
+        Passed over.
+
+    """

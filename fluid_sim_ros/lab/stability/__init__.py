@@ -1,0 +1,1 @@
+"""Stability: where each integrator fails, as maps and as limits."""
