@@ -2,12 +2,12 @@
 Speed against accuracy of the laboratory's problems: charts, tables, orders, Pareto fronts.
 
 Every problem of lab/problems/catalogue.py, charted twice: errors must be the same to the bit, and
-Pareto fronts, which rest on measured times, the same set. Errors take minutes and do not mind a busy
-machine; times are measured after all of them, by a process for each of the two charts (the second
-keeps the first one's factor within which costs are equal while no ratio is near it), and with
-``--times`` anew for errors that are there already (in out/lab_chart). Writes JSON, and for the
-full volume a picture and a CSV per problem (of the second chart).
-Run: ``python -m benchmarks.lab.lab_chart [--quick] [--times] [--json PATH] [--only NAME ...]``.
+Pareto fronts, which rest on measured times, the same set. Errors take minutes and do not mind a
+busy machine; times are measured after all of them, by a process for each of the two charts (the
+second keeps the first one's factor within which costs are equal while no ratio is near it), and
+with ``--times`` anew for errors that are there already (in out/lab_chart). Writes JSON, and for
+the full volume a picture and a CSV per problem (of the second chart). Run: ``python -m
+benchmarks.lab.lab_chart [--quick] [--times] [--json PATH] [--only NAME ...]``.
 """
 
 import json
