@@ -22,7 +22,7 @@ PERIOD_NS = 10_000_000
 
 
 def controller(kind, **parameters):
-    return Process(f'fluid_sim_ros.ros.{kind}_controller', **parameters)
+    return Process(f'fluid_sim_ros.ros.controllers.{kind}', **parameters)
 
 
 def odometry(z=1.5, x=0.0, tick=0):

@@ -70,7 +70,9 @@ def test_shipped_parameter_files_hold_known_flat_parameters(path):
     for name, value in nodes.pop('fluid_sim_node')['ros__parameters'].items():
         assert check(parameters.TABLE, name, value) is None
     for node, body in nodes.items():
-        module = importlib.import_module(f'fluid_sim_ros.ros.{node}')
+        module = importlib.import_module(
+            f'fluid_sim_ros.ros.controllers.{node.removesuffix("_controller")}'
+        )
         table = {**controller_parameters.COMMON, **module.OWN}
         for name, value in body['ros__parameters'].items():
             assert check(table, name, value) is None

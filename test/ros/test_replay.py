@@ -22,7 +22,7 @@ def log(tmp_path_factory):
 
 
 def replay(log, *options):
-    return Process('fluid_sim_ros.cli.main', 'replay', str(log), *options)
+    return Process('fluid_sim_ros.cli', 'replay', str(log), *options)
 
 
 def play_when_heard(peer, *lists):
