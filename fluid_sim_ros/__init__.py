@@ -21,7 +21,7 @@ _HOMES = {
     'Simulation': 'fluid_sim_ros.simulation.simulation',
     'load_plugins': 'fluid_sim_ros.plugins',
     'plugin_library': 'fluid_sim_ros.plugins',
-    'scene_names': 'fluid_sim_ros.scene.scene',
+    'scene_names': 'fluid_sim_ros.scene.scene_files',
 }
 
 

@@ -139,20 +139,31 @@ class StepClock:
 
     def restart(self) -> None:
         """Go back to time 0 and to the scene's timestep."""
-        self.load(Pace(self._tick_ns))
+        self.load(None)
 
     def retime(self, step: int, timestep: Fraction) -> None:
         """
-        Have the steps from ``step`` on take ``timestep`` [s], not above a tick.
+        Have later steps take another timestep.
 
         Parameters
         ----------
         step
-            First step of the new length.
+            The present step.
         timestep
-            [s], exactly.
+            Of the steps from here on [s], not above a tick.
+
+        Raises
+        ------
+        ConfigError
+            If it is not above 0, or longer than a tick.
 
         """
+        tick = self._tick_ns / 1_000_000_000
+        if not 0 < timestep <= tick:
+            raise ConfigError(
+                f'timestep {float(timestep):g} s: must be above 0, and not longer than the '
+                f"scene's ({float(tick):g} s)"
+            )
         begin_ns = Fraction(self._numerator(step), self._denominator)
         self.load(Pace(timestep * 1_000_000_000, step, begin_ns))
 
@@ -160,16 +171,17 @@ class StepClock:
         """Return what the time of every later step follows from."""
         return self._pace
 
-    def load(self, pace: Pace) -> None:
+    def load(self, pace: Pace | None) -> None:
         """
         Go on from a saved pace.
 
         Parameters
         ----------
         pace
-            What ``save`` returned.
+            As ``save`` returned it; None: the scene's timestep all along.
 
         """
+        pace = pace or Pace(self._tick_ns)
         self._pace = pace
         self.retimed = pace != Pace(self._tick_ns)
         # time [ns] = (base + (step - first) growth) / denominator, in whole numbers

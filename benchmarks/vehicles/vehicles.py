@@ -19,6 +19,7 @@ import numpy as np
 
 from benchmarks.common import ROOT, arguments, write
 from fluid_sim_ros import Scene
+from fluid_sim_ros.schema.settings import RunSettings
 from test.support import vehicle_runs as runs
 from test.support.plugin_models import Array
 from test.support.vehicle_equations import EQUATIONS, G
@@ -105,7 +106,7 @@ def cost(*, quick: bool) -> dict[str, Any]:
         times: dict[str, list[float]] = {'vehicle': [], 'stock': []}
         both: dict[str, mujoco.MjModel] = {
             'vehicle': Scene.load(name).compile().model,
-            'stock': Scene.load(scene).compile(fluid=rung).model,
+            'stock': Scene.load(scene).compile(RunSettings(fluid=rung)).model,
         }
         for _ in range(rounds):
             for kind, model in both.items():

@@ -113,20 +113,18 @@ def _build_parser() -> argparse.ArgumentParser:
 def _run(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.cli.run import run_scene, summary_table
     from fluid_sim_ros.cli.scene import advised_settings
+    from fluid_sim_ros.schema.settings import RunSettings
 
     if arguments.record_topics and not arguments.record:
         raise ConfigError('--record-topics needs --record PATH')
-    settings = {key: getattr(arguments, key) for key in ('timestep', 'integrator', 'fluid')}
+    given = {key: getattr(arguments, key) for key in RunSettings.model_fields}
+    settings = RunSettings.checked('--{}', **given)
     if arguments.advised:
-        advised = advised_settings(arguments.scene)
-        settings = {
-            key: advised[key] if value is None else value for key, value in settings.items()
-        }
+        settings = settings.over(advised_settings(arguments.scene))
     result = run_scene(
         arguments.scene,
         duration=arguments.duration,
-        **settings,
-        seed=arguments.seed,
+        settings=settings,
         wind=arguments.wind,
         current=arguments.current,
         realtime=arguments.pacing == 'realtime',

@@ -18,6 +18,7 @@ from fluid_sim_ros.loop.grid_watch import GridWatch
 from fluid_sim_ros.loop.pacing import Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import duration_steps
 
@@ -72,10 +73,7 @@ def run_scene(
     scene: str | Path,
     *,
     duration: float | None = None,
-    timestep: float | None = None,
-    integrator: str | None = None,
-    fluid: str | None = None,
-    seed: int = 0,
+    settings: RunSettings | None = None,
     wind: Sequence[float] | None = None,
     current: Sequence[float] | None = None,
     realtime: bool = False,
@@ -88,8 +86,10 @@ def run_scene(
 
     Parameters
     ----------
-    scene, timestep, integrator, fluid, seed
-        As for ``Simulation``.
+    scene
+        Name, or path of an MJCF or scene file.
+    settings
+        Timestep, integrator, fluid and seed; default: the scene's own.
     duration
         Simulated time [s]; default: the scene's, or with an autopilot until it is interrupted.
     wind, current
@@ -114,9 +114,7 @@ def run_scene(
         Wrong input, or ``DivergedError``.
 
     """
-    simulation = Simulation(
-        scene, seed=seed, timestep=timestep, integrator=integrator, fluid=fluid
-    )
+    simulation = Simulation(scene, **(settings or RunSettings()).model_dump())
     seconds = duration
     if seconds is None and autopilot is None:
         seconds = simulation.scene.duration
@@ -135,7 +133,7 @@ def run_scene(
         progress.add_task(simulation.scene.name, total=seconds)
         watcher = Watcher(simulation, progress)
         sinks: list[Sink] = [watcher]
-        with _recording(simulation, record, record_topics, sinks, fluid) as (files, log):
+        with _recording(simulation, record, record_topics, sinks) as (files, log):
             begin = time.perf_counter()
             if autopilot is None:
                 Runner(simulation, NoSource(), sinks, pacing).run(until=steps)
@@ -155,7 +153,6 @@ def _recording(
     path: str | Path | None,
     topics: Sequence[str],
     sinks: list[Sink],
-    fluid: str | None,
 ) -> Iterator[tuple[dict[str, Any], 'RecordingSink | None']]:
     """Add a recording sink where one is asked for; give what the result says of it, and it."""
     if path is None:
@@ -163,7 +160,7 @@ def _recording(
         return
     with needed_for('--record'):
         from fluid_sim_ros.recording.sink import RecordingSink
-    settings = {'fluid': fluid or ''}
+    settings = {'fluid': simulation.settings.fluid or ''}
     sink = RecordingSink(simulation, Path(path), settings, topics)
     sinks.append(sink)
     files = {'record': str(sink.recorder.paths[0])}

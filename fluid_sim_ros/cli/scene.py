@@ -9,6 +9,7 @@ from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
 from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.media import OPTION
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 
 _SOURCES = {
@@ -36,9 +37,19 @@ def examine_scene(scene: str | Path) -> list[Row]:
     ]  # fmt: skip
 
 
-def advised_settings(scene: str | Path) -> dict[str, Any]:
+def advised_settings(scene: str | Path) -> RunSettings:
     """
-    Return timestep, integrator and fluid that a scene is advised to use, None for its own fluid.
+    Return the settings that a scene is advised to use.
+
+    Parameters
+    ----------
+    scene
+        Name, or path of a scene file.
+
+    Returns
+    -------
+    RunSettings
+        Timestep, integrator and fluid; None for the scene's own fluid.
 
     Raises
     ------
@@ -52,7 +63,7 @@ def advised_settings(scene: str | Path) -> dict[str, Any]:
             f'{loaded.name}: the scene has no advised settings; '
             f'fluid_sim advise {scene} --tolerance 0.01 --keep writes them into its YAML file'
         )
-    return {key: getattr(loaded.advised, key) for key in ('timestep', 'integrator', 'fluid')}
+    return loaded.advised.settings
 
 
 def _models(models: Sequence[Any]) -> str:

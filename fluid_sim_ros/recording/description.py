@@ -145,7 +145,7 @@ def describe(
         'seed': simulation.seed,
         'timestep': simulation.timestep,
         'integrator': integrator.removeprefix('mjINT_').lower(),
-        'fluid': options.settings.get('fluid') or None,
+        'fluid': simulation.settings.fluid,
         'namespace': options.namespace,
         'topics': {topic.name: topic.key for topic in topics},
         'settings': dict(options.settings),

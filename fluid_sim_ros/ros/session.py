@@ -16,6 +16,7 @@ from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.recording import start_recording
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import duration_steps, period_steps, whole_steps
 
@@ -64,13 +65,12 @@ class Session:
         self._settings = settings
         self._report = report
         self.diverged = ''
-        self.simulation = Simulation(
-            settings['scene'],
+        run = RunSettings.checked(
+            "parameter '{}'",
+            **{key: settings[key] or None for key in ('timestep', 'integrator', 'fluid')},
             seed=settings['seed'],
-            timestep=settings['timestep'] or None,
-            integrator=settings['integrator'] or None,
-            fluid=settings['fluid'] or None,
         )
+        self.simulation = Simulation(settings['scene'], **run.model_dump())
         self._until = duration_steps(settings['duration'], self.simulation.timestep)
         self.inputs = Inputs(node, self.simulation, settings, report)
         self.outputs = Outputs(node, self.simulation, settings)

@@ -4,10 +4,9 @@ from pathlib import Path
 
 import mujoco
 
-from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.errors import ConfigError, ModelError
 from fluid_sim_ros.plugins.config import BODY, FOIL, THRUSTER, medium_of, plugin_of_body
 from fluid_sim_ros.plugins.messages import load_error_line
-from fluid_sim_ros.schema.settings import FLUID_RUNGS
 
 #: Passive plugins that stand on a body.
 _ON_BODIES = (BODY, FOIL)
@@ -30,8 +29,6 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
     a scene stays what it is. ``no_added_mass``: all that the scene has, but without the inertia of
     the added mass.
     """
-    if fluid not in FLUID_RUNGS:
-        raise ConfigError(f"fluid '{fluid}' is not known; allowed: {listed(FLUID_RUNGS)}")
     if fluid == 'no_added_mass':
         _take_added_mass_away(spec, path)
         return

@@ -47,8 +47,18 @@ class Gaits:
     """
 
     def __init__(
-        self, gaits: Mapping[str, Gait], vehicles: Mapping[str, Vehicle], timestep: float
+        self,
+        gaits: Mapping[str, Gait],
+        vehicles: Mapping[str, Vehicle],
+        timestep: float,
+        where: str,
     ) -> None:
+        for name in gaits:
+            if name not in vehicles:
+                raise ConfigError(
+                    f"{where}: gait: vehicle '{name}' is not in the scene; "
+                    f'it has: {listed(vehicles)}'
+                )
         self._all = {name: GaitCycle(g, vehicles[name], timestep) for name, g in gaits.items()}
         self.running: tuple[str, ...] = ()
         self.next_step = NEVER

@@ -9,6 +9,8 @@ from fluid_sim_ros.plugins.config import medium_of
 
 #: Where a plain velocity of the whole scene stands.
 OPTION = 'opt.wind'
+#: Seeds that fluid_sim.medium can tell apart: the whole numbers that a double holds.
+MOST_SEEDS = 2**53
 #: Above this density the one medium of a scene without a stated one is water [kg/m^3]; it lies
 #: between the densest air (1.4 at -20 degC) and the lightest water (958 at 100 degC).
 _WATER_DENSITY = 100.0

@@ -1,10 +1,9 @@
-"""A scene: an MJCF model and its YAML file, validated, with every name resolved to an id once."""
+"""A scene: its model, vehicles, weather and schedule, validated, with every name as an id."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import mujoco
-import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.plugins import load_plugins
@@ -13,16 +12,17 @@ from fluid_sim_ros.scene.fluid_models import compile_spec, force_fluid
 from fluid_sim_ros.scene.gaits import Gaits
 from fluid_sim_ros.scene.masses import scale_masses
 from fluid_sim_ros.scene.media import streams_of
-from fluid_sim_ros.scene.schedule import Schedule
+from fluid_sim_ros.scene.scene_files import scene_fields, scene_names
+from fluid_sim_ros.scene.schedule import Schedule, check_schedule
 from fluid_sim_ros.scene.vehicle import Vehicle, free_bodies, resolve
-from fluid_sim_ros.scene.weather import apply_weather
-from fluid_sim_ros.scene.weather_files import with_files
+from fluid_sim_ros.scene.weather import add_waves, apply_weather
 from fluid_sim_ros.schema.advised import Advised
-from fluid_sim_ros.schema.base import parse, read_yaml
-from fluid_sim_ros.schema.scene import Gait, Home, SceneFile, ScheduledEvent, VehicleFile
-from fluid_sim_ros.schema.settings import integrator as integrator_of
+from fluid_sim_ros.schema.scene import Gait, Home, ScheduledEvent, VehicleFile
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.schema.waves import Waves
 from fluid_sim_ros.schema.weather import CurrentModel, WindModel
+
+_AS_STATED = RunSettings()
 
 
 @dataclass(frozen=True)
@@ -30,14 +30,13 @@ class CompiledScene:
     """
     A MuJoCo model with the scene's names resolved to ids.
 
-    ``streams`` names what of wind and current the scene has; ``keyframe_id`` is -1 for none.
+    ``streams`` names what of wind and current the scene has.
     """
 
     model: mujoco.MjModel
     vehicles: dict[str, Vehicle]
     schedule: Schedule
     gaits: Gaits
-    keyframe_id: int
     streams: tuple[str, ...]
 
 
@@ -57,7 +56,7 @@ class Scene:
     description, medium, duration, keyframe, home, waves, wind, current, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     timestep, integrator, fluid
-        In place of the model's; see ``compile``.
+        In place of the model's; see ``RunSettings``.
     advised
         Such settings that are known to be good enough, for whoever asks for them.
     vehicles
@@ -102,7 +101,7 @@ class Scene:
             return scene
         path = Path(scene)
         if path.suffix in ('.yaml', '.yml'):
-            return _from_yaml(path)
+            return cls(**scene_fields(path))
         if path.suffix in ('.xml', '.mjcf') or path.is_file():
             if not path.is_file():
                 raise ConfigError(f'{path}: no such MJCF file')
@@ -114,30 +113,28 @@ class Scene:
             )
         by_name = config_folder() / 'scenes' / f'{scene}.yaml'
         if by_name.is_file():
-            return _from_yaml(by_name)
+            return cls(**scene_fields(by_name))
         return cls(name=str(scene), model_path=models_folder() / f'{scene}.xml')
 
-    def compile(
-        self,
-        *,
-        timestep: float | None = None,
-        integrator: str | None = None,
-        fluid: str | None = None,
-        seed: int = 0,
-    ) -> CompiledScene:
+    @property
+    def settings(self) -> RunSettings:
+        """The scene's own settings; ConfigError if one of them is wrong."""
+        own = {key: getattr(self, key) for key in ('timestep', 'integrator', 'fluid')}
+        return RunSettings.checked(f"{self.name}: key '{{}}'", **own)
+
+    def compile(self, settings: RunSettings = _AS_STATED) -> CompiledScene:
         """
         Compile the model and resolve every name.
 
         Parameters
         ----------
-        timestep
-            Replaces the scene's timestep [s]; without either the model's holds, as for the others.
-        integrator
-            Replaces the model's integrator, one of ``INTEGRATORS`` (any case).
-        fluid
-            Replaces the model's fluid forces, one of ``FLUID_RUNGS``.
-        seed
-            Of the weather's random processes.
+        settings
+            Of the run; what it leaves open the scene says, or else the model.
+
+        Returns
+        -------
+        CompiledScene
+            The model, and what the scene names in it.
 
         Raises
         ------
@@ -146,34 +143,32 @@ class Scene:
 
         """
         load_plugins()
-        timestep = self.timestep if timestep is None else timestep
-        integrator = self.integrator if integrator is None else integrator
-        fluid = self.fluid if fluid is None else fluid
+        settings = settings.over(self.settings)
+        fluid, seed = settings.fluid, settings.seed
         spec = self.read_model()
         scale_masses(spec, self.masses, self.model_path)
-        if timestep is not None:
-            if not (np.isfinite(timestep) and timestep > 0):
-                raise ConfigError(f'timestep {timestep} s: must be finite and above 0')
-            spec.option.timestep = timestep
-        if integrator is not None:
-            spec.option.integrator = integrator_of(integrator)
+        if settings.timestep is not None:
+            spec.option.timestep = settings.timestep
+        if settings.integrator_id is not None:
+            spec.option.integrator = settings.integrator_id
         dry = None
         if fluid == 'none':  # wind and current still may be commanded, to no effect
             dry = streams_of(compile_spec(spec, self.model_path), self.medium)
         if fluid is not None:
             force_fluid(spec, fluid, self.model_path)
         if self.waves is not None and fluid in (None, 'no_added_mass'):  # others: no surface
-            _add_waves(spec, self.waves.keys(seed), self.name)
+            add_waves(spec, self.waves.keys(seed), self.name)
         if fluid != 'none':
             apply_weather(spec, self.wind, self.current, seed, self.name)
         model = compile_spec(spec, self.model_path)
         vehicles = self._vehicles(model)
         schedule = Schedule(self.schedule, model.opt.timestep)
-        _check_schedule(self, vehicles)
-        gaits = Gaits(self.gait, vehicles, model.opt.timestep)
+        check_schedule(self.schedule, vehicles, self.name)
+        gaits = Gaits(self.gait, vehicles, model.opt.timestep, self.name)
         streams = dry or streams_of(model, self.medium)
         self._check_weather(streams)
-        return CompiledScene(model, vehicles, schedule, gaits, self._keyframe_id(model), streams)
+        self._check_keyframe(model)
+        return CompiledScene(model, vehicles, schedule, gaits, streams)
 
     def read_model(self) -> mujoco.MjSpec:
         """Return the model as it is written, or raise ModelError."""
@@ -201,102 +196,10 @@ class Scene:
                     f'it has: {listed(streams)}'
                 )
 
-    def _keyframe_id(self, model: mujoco.MjModel) -> int:
-        if self.keyframe is None:
-            return -1
-        identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, self.keyframe)
-        if identity < 0:
-            names = [model.key(i).name for i in range(model.nkey)]
+    def _check_keyframe(self, model: mujoco.MjModel) -> None:
+        names = [model.key(i).name for i in range(model.nkey)]
+        if self.keyframe is not None and self.keyframe not in names:
             raise ConfigError(
                 f"{self.name}: keyframe '{self.keyframe}' is not in the model; "
                 f'it has: {listed(names)}'
             )
-        return int(identity)
-
-
-def scene_names() -> list[str]:
-    """Return the names that ``Scene.load`` knows, sorted."""
-    names = {path.stem for path in (config_folder() / 'scenes').glob('*.yaml')}
-    names |= {path.stem for path in models_folder().glob('*.xml')}
-    return sorted(names)
-
-
-def _from_yaml(path: Path) -> Scene:
-    content = parse(SceneFile, read_yaml(path), path)
-    model_path = (path.parent / content.model).resolve()
-    if not content.model.endswith(('.xml', '.mjcf')):
-        model_path = models_folder() / f'{content.model}.xml'
-    if not model_path.is_file():
-        known = listed(sorted(p.stem for p in models_folder().glob('*.xml')))
-        raise ConfigError(
-            f"{path}: key 'model': no model '{content.model}'; models: {known}; "
-            'or give the path of an MJCF file, relative to this file'
-        )
-    vehicles = None
-    if content.vehicles is not None:
-        vehicles = {
-            name: _vehicle_file(value, path) if isinstance(value, str) else value
-            for name, value in content.vehicles.items()
-        }
-    return Scene(
-        name=path.stem,
-        model_path=model_path,
-        description=content.description,
-        medium=content.medium,
-        duration=content.duration,
-        keyframe=content.keyframe,
-        home=content.home,
-        waves=content.waves,
-        wind=with_files(content.wind, path.parent),
-        current=with_files(content.current, path.parent),
-        schedule=tuple(content.schedule),
-        gait=content.gait,
-        vehicles=vehicles,
-        timestep=content.timestep,
-        integrator=content.integrator,
-        fluid=content.fluid,
-        advised=content.advised,
-    )
-
-
-def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
-    folder = config_folder() / 'vehicles'
-    beside = scene_path.parent / name
-    path = beside if name.endswith(('.yaml', '.yml')) else folder / f'{name}.yaml'
-    if not path.is_file():
-        known = listed(sorted(p.stem for p in folder.glob('*.yaml')))
-        raise ConfigError(f"{scene_path}: vehicle file '{name}' is not known; vehicles: {known}")
-    return parse(VehicleFile, read_yaml(path), path)
-
-
-def _add_waves(spec: mujoco.MjSpec, keys: dict[str, str], name: str) -> None:
-    media = [p for p in spec.plugins if p.plugin_name == 'fluid_sim.medium' and p.name]
-    if not media:
-        raise ConfigError(
-            f"{name}: key 'waves': the model has no free surface; "
-            'give it a fluid_sim.medium with surface'
-        )
-    media[0].config = {**media[0].config, **keys}
-
-
-def _check_schedule(scene: Scene, vehicles: dict[str, Vehicle]) -> None:
-    """Refuse a schedule or gait of unknown vehicles, or thrust of the wrong length."""
-    for name in scene.gait:
-        if name not in vehicles:
-            raise ConfigError(
-                f"{scene.name}: gait: vehicle '{name}' is not in the scene; "
-                f'it has: {listed(vehicles)}'
-            )
-    for event in scene.schedule:
-        where = f'{scene.name}: schedule at {event.at:g} s'
-        for name in (*event.thrust, *event.wrench):
-            if name not in vehicles:
-                raise ConfigError(
-                    f"{where}: vehicle '{name}' is not in the scene; it has: {listed(vehicles)}"
-                )
-        for name, values in event.thrust.items():
-            expected = len(vehicles[name].thrusters)
-            if len(values) != expected:
-                raise ConfigError(
-                    f"{where}: thrust of '{name}' has {len(values)} values; it needs {expected}"
-                )

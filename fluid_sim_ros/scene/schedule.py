@@ -1,8 +1,10 @@
 """The scene's timed events (wind, current, thrust, disturbances) on the integer step clock."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.step_clock import NEVER, whole_steps
 
@@ -61,3 +63,39 @@ class Schedule:
     @staticmethod
     def _sorted(events: Iterable[Event]) -> list[Event]:
         return sorted(events, key=lambda event: event.step)
+
+
+def check_schedule(
+    changes: Sequence[ScheduledEvent], vehicles: Mapping[str, Vehicle], where: str
+) -> None:
+    """
+    Refuse events of unknown vehicles, or thrust of the wrong length.
+
+    Parameters
+    ----------
+    changes
+        Of the scene.
+    vehicles
+        Those that there are, by name.
+    where
+        What an error begins with.
+
+    Raises
+    ------
+    ConfigError
+        For the first such event, with its time.
+
+    """
+    for event in changes:
+        at = f'{where}: schedule at {event.at:g} s'
+        for name in (*event.thrust, *event.wrench):
+            if name not in vehicles:
+                raise ConfigError(
+                    f"{at}: vehicle '{name}' is not in the scene; it has: {listed(vehicles)}"
+                )
+        for name, values in event.thrust.items():
+            expected = len(vehicles[name].thrusters)
+            if len(values) != expected:
+                raise ConfigError(
+                    f"{at}: thrust of '{name}' has {len(values)} values; it needs {expected}"
+                )

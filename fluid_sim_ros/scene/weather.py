@@ -1,12 +1,13 @@
-"""Brings a scene's wind and current into its model: ``opt.wind``, or keys of fluid_sim.medium."""
+"""Brings a scene's weather into its model: ``opt.wind``, or keys of fluid_sim.medium."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import mujoco
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.scene.grid_files import unpack
+from fluid_sim_ros.scene.media import MOST_SEEDS
 from fluid_sim_ros.schema.flow_model import FlowModel
 from fluid_sim_ros.schema.mean_flow import Steady
 
@@ -53,7 +54,7 @@ def apply_weather(
             return
         spec.activate_plugin(MEDIUM)
         plugin = spec.add_plugin(name='weather', plugin_name=MEDIUM, active=True)
-    plugin.config = {**plugin.config, **keys, 'seed': str(seed)}
+    plugin.config = {**plugin.config, **keys, 'seed': str(seed % MOST_SEEDS)}
     _add_grids(spec, 'wind', wind)
     _add_grids(spec, 'current', current)
 
@@ -88,3 +89,31 @@ def _check_together(stream: str, models: Sequence[FlowModel], where: str) -> Non
             raise ConfigError(
                 f"{where}: key '{stream}': {' and '.join(names)}; one {what} at most"
             )
+
+
+def add_waves(spec: mujoco.MjSpec, keys: Mapping[str, str], where: str) -> None:
+    """
+    Write waves into a model before it is compiled.
+
+    Parameters
+    ----------
+    spec
+        The model; changed.
+    keys
+        Of fluid_sim.medium; see ``schema.waves``.
+    where
+        What an error begins with.
+
+    Raises
+    ------
+    ConfigError
+        If the model has no free surface.
+
+    """
+    media = [p for p in spec.plugins if p.plugin_name == MEDIUM and p.name]
+    if not media:
+        raise ConfigError(
+            f"{where}: key 'waves': the model has no free surface; "
+            'give it a fluid_sim.medium with surface'
+        )
+    media[0].config = {**media[0].config, **keys}

@@ -1,24 +1,7 @@
 """The settings that a scene file keeps beside its own, for whoever asks for them."""
 
-from typing import Annotated
-
-from pydantic import AfterValidator
-
-from fluid_sim_ros.errors import listed
 from fluid_sim_ros.schema.base import NotNegative, Positive, Strict
-from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
-
-
-def _integrator(name: str) -> str:
-    if name.lower() not in INTEGRATORS:
-        raise ValueError(f'is not known; allowed: {listed(INTEGRATORS)}')
-    return name
-
-
-def _fluid(name: str) -> str:
-    if name not in FLUID_RUNGS:
-        raise ValueError(f'is not known; allowed: {listed(FLUID_RUNGS)}')
-    return name
+from fluid_sim_ros.schema.settings import Fluid, Integrator, RunSettings
 
 
 class Advised(Strict):
@@ -34,5 +17,10 @@ class Advised(Strict):
     metric: str
     error: NotNegative
     timestep: Positive
-    integrator: Annotated[str, AfterValidator(_integrator)]
-    fluid: Annotated[str, AfterValidator(_fluid)] | None = None
+    integrator: Integrator
+    fluid: Fluid | None = None
+
+    @property
+    def settings(self) -> RunSettings:
+        """Timestep, integrator and fluid as settings of a run."""
+        return RunSettings(timestep=self.timestep, integrator=self.integrator, fluid=self.fluid)

@@ -6,6 +6,7 @@ What the files hold stands in ``scene``, ``sensors`` and ``weather`` beside this
 
 import math
 from collections.abc import Iterator
+from numbers import Real
 from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_args
 
@@ -22,7 +23,7 @@ NAME_PATTERN = r'^[A-Za-z][A-Za-z0-9_]*$'
 
 def _number(value: Any) -> float:
     """Accept what YAML 1.1 and people write for a finite number (also ``1e-3``, a YAML string)."""
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
+    if isinstance(value, bool) or not isinstance(value, Real | str):
         raise ValueError('must be a number')
     try:
         number = float(value)
@@ -74,34 +75,92 @@ def read_yaml(path: Path) -> Any:
 
 
 def parse(schema: type[Schema], content: Any, path: Path) -> Schema:
-    """Validate ``content`` against a schema; the first fault becomes one line of ConfigError."""
+    """
+    Validate what a file says.
+
+    Parameters
+    ----------
+    schema
+        What it may say.
+    content
+        What ``read_yaml`` found.
+    path
+        The file, for errors.
+
+    Returns
+    -------
+    Strict
+        An instance of the schema.
+
+    Raises
+    ------
+    ConfigError
+        For the first fault: one line with file, key, value and what is allowed.
+
+    """
     if not isinstance(content, dict):
         raise ConfigError(
             f'{path}: must be a mapping with the keys: {listed(schema.model_fields)}'
         )
+    return validated(schema, content, where=f'{path}: ')
+
+
+def validated(
+    schema: type[Schema], content: Any, *, where: str = '', named: str = "key '{}'"
+) -> Schema:
+    """
+    Validate a mapping against a schema.
+
+    Parameters
+    ----------
+    schema
+        What the mapping may hold.
+    content
+        The mapping.
+    where
+        Begin of the error.
+    named
+        How the user wrote a key, with ``{}`` for its name.
+
+    Returns
+    -------
+    Strict
+        An instance of the schema.
+
+    Raises
+    ------
+    ConfigError
+        For the first fault: one line with key, value and what is allowed.
+
+    """
     try:
         return schema.model_validate(content)
     except ValidationError as error:
-        raise ConfigError(f'{path}: {_first_fault(schema, error)}') from None
+        raise ConfigError(where + _first_fault(schema, error, named)) from None
 
 
-def _first_fault(schema: type[BaseModel], error: ValidationError) -> str:
+def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) -> str:
     # the deepest fault is the one that the writer can act on (a union reports each member)
     fault = max(error.errors(include_url=False), key=lambda fault: len(fault['loc']))
     place, owner = _place(schema, fault['loc'])
     kind, message = fault['type'], fault['msg'].removeprefix('Value error, ')
+    message = message.replace('Input should be', 'must be')
+    key = named.format(place)
     if kind == 'extra_forbidden':
-        return f"unknown key '{place}'; allowed: {listed(owner.model_fields)}"
+        return f'unknown {key}; allowed: {listed(owner.model_fields)}'
     if kind == 'missing':
-        return f"missing key '{place}'"
+        return f'missing {key}'
     if kind == 'union_tag_not_found':
-        return f"missing key '{place}.model'"
+        return f'missing {named.format(f"{place}.model")}'
     if kind == 'union_tag_invalid':
         known = fault['ctx']['expected_tags'].replace("'", '')
-        return f"key '{place}.model': '{fault['ctx']['tag']}' is not known; allowed: {known}"
+        key = named.format(f'{place}.model')
+        return f"{key}: '{fault['ctx']['tag']}' is not known; allowed: {known}"
     if isinstance(fault['input'], dict):  # a rule between keys: the whole mapping tells nothing
-        return f"key '{place}': {message}" if place else message
-    return f"key '{place}': {message} (got {fault['input']!r})"
+        return f'{key}: {message}' if place else message
+    if isinstance(fault['input'], str) and repr(fault['input']) in message:
+        return f'{key}: {message}'
+    return f'{key}: {message} (got {fault["input"]!r})'
 
 
 def _place(schema: type[BaseModel], location: tuple[Any, ...]) -> tuple[str, type[BaseModel]]:

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from fluid_sim_ros.schema.advised import Advised
 from fluid_sim_ros.schema.base import Name, NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.schema.sensors import SensorsFile
+from fluid_sim_ros.schema.settings import Fluid, Integrator
 from fluid_sim_ros.schema.waves import Waves
 from fluid_sim_ros.schema.weather import Current, Wind
 
@@ -83,8 +84,8 @@ class SceneFile(Strict):
     medium: Literal['air', 'water'] | None = None
     vehicles: dict[Name, str | VehicleFile] | None = None
     timestep: Positive | None = None
-    integrator: str | None = None
-    fluid: str | None = None
+    integrator: Integrator | None = None
+    fluid: Fluid | None = None
     advised: Advised | None = None
     duration: Positive = 10.0
     keyframe: str | None = None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.errors import DivergedError, FluidSimError
+from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 
@@ -155,13 +155,30 @@ class Engine:
         nat.native().energy_feed(*self.addresses, self.observed._address, out.ctypes.data)
         return EnergyBalance(*out.tolist())
 
-    def reset(self, keyframe_id: int) -> None:
-        """Go to a keyframe, or with -1 to the model's initial state, at time 0."""
-        if keyframe_id >= 0:
-            mujoco.mj_resetDataKeyframe(self.model, self.data, keyframe_id)
-            self.data.time = 0.0
-        else:
+    def largest(self) -> Largest:
+        """Return a watch for the largest speed, tilt and distance of each vehicle."""
+        return Largest(self)
+
+    def reset(self, keyframe: str | None) -> None:
+        """
+        Go to a keyframe, at time 0.
+
+        Parameters
+        ----------
+        keyframe
+            Its name; None: the model's initial state.
+
+        Raises
+        ------
+        CommandError
+            If the model has no such keyframe.
+
+        """
+        if keyframe is None:
             mujoco.mj_resetData(self.model, self.data)
+            return
+        mujoco.mj_resetDataKeyframe(self.model, self.data, keyframe_id(self.model, keyframe))
+        self.data.time = 0.0
 
     def save(self) -> Array:
         """Return everything in the data that the next step depends on."""
@@ -186,6 +203,35 @@ class Engine:
                 'it is of another model'
             )
         mujoco.mj_setState(self.model, self.data, state, _STATE)
+
+
+def keyframe_id(model: mujoco.MjModel, name: str) -> int:
+    """
+    Return the id of a keyframe.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    name
+        Of the keyframe.
+
+    Returns
+    -------
+    int
+        Its id.
+
+    Raises
+    ------
+    CommandError
+        If the model has no such keyframe, with those that it has.
+
+    """
+    identity = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, name))
+    if identity < 0:
+        names = listed(model.key(i).name for i in range(model.nkey))
+        raise CommandError(f"keyframe '{name}' is not in the model; it has: {names}")
+    return identity
 
 
 def divergence(model: mujoco.MjModel, time: float, dof: float) -> DivergedError:

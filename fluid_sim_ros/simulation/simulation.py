@@ -1,39 +1,22 @@
-"""The simulation: a commanded scene, stepped under watch; states and wrenches out."""
+"""The simulation: a scene that is stepped under watch; commands in, states and wrenches out."""
 
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from types import MappingProxyType
 
-import mujoco
-
-from fluid_sim_ros.errors import CommandError, ConfigError, listed
-from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.scene import Scene
-from fluid_sim_ros.scene.schedule import Event
 from fluid_sim_ros.schema.scene import ScheduledEvent
-from fluid_sim_ros.simulation.actuation import CommandedWrench
-from fluid_sim_ros.simulation.commanded_scene import CommandedScene
-from fluid_sim_ros.simulation.engine import EnergyBalance, Largest
-from fluid_sim_ros.simulation.snapshot import ForceTorque, Snapshot, VehicleState
-from fluid_sim_ros.simulation.wind_and_current import SavedStreams
-from fluid_sim_ros.step_clock import Pace, StepClock, exact
+from fluid_sim_ros.schema.settings import RunSettings
+from fluid_sim_ros.simulation.commands import Commands
+from fluid_sim_ros.simulation.engine import Engine
+from fluid_sim_ros.simulation.events import Events
+from fluid_sim_ros.simulation.saved_state import SavedState
+from fluid_sim_ros.simulation.snapshot import ForceTorque, Snapshot, terms_of
+from fluid_sim_ros.step_clock import StepClock
 
 
-@dataclass(frozen=True)
-class SavedState:
-    """Everything that the next step depends on; made by ``Simulation.save_state``."""
-
-    engine: Array
-    streams: SavedStreams
-    step: int
-    wrenches: dict[str, CommandedWrench]
-    added_events: tuple[Event, ...]
-    gaits: tuple[str, ...] | None = None  # running ones; None: all of the scene
-    pace: Pace | None = None  # None: the scene's timestep all along
-
-
-class Simulation(CommandedScene):
+class Simulation:
     """
     A scene that runs.
 
@@ -47,7 +30,30 @@ class Simulation(CommandedScene):
     seed
         Seed of everything random in the scene.
     timestep, integrator, fluid
-        Replace what the model states; see ``Scene.compile``.
+        Replace what the scene or its model states; see ``RunSettings``.
+
+    Attributes
+    ----------
+    scene
+        What was loaded.
+    settings, seed
+        The ``RunSettings`` that hold (those given, or else the scene's), and their seed.
+    model, data
+        MuJoCo's model and the data that is stepped; change them only between steps.
+    observed
+        The copy that the last ``observe(forces=True)`` evaluated; only to be read.
+    timestep
+        Of the scene [s]; rates count in it, also after ``set_timestep``.
+    vehicles
+        Vehicles by name; ``vehicle`` returns one, or says which there are.
+    streams, flow_source
+        Which of wind and current the scene has, and how they reach the bodies. ``opt.wind``: one
+        velocity for all. ``fluid_sim.medium``: each meets its own, by place and time.
+    set_thrust, set_joints, set_wrench, set_wind, set_current, enable_wind, apply
+        Methods that command; see ``Commands``.
+    observe, largest, energy_balance
+        Methods that return the vehicles as rows of numbers, a watch of their largest values, and
+        what the integrator does to the energy; see ``Engine``.
 
     Raises
     ------
@@ -66,33 +72,34 @@ class Simulation(CommandedScene):
         fluid: str | None = None,
     ) -> None:
         self.scene = Scene.load(scene)
-        self.seed = seed
-        compiled = self.scene.compile(
+        given = RunSettings.checked(
             timestep=timestep, integrator=integrator, fluid=fluid, seed=seed
         )
-        super().__init__(compiled)
-        self._schedule = compiled.schedule
-        self._keyframe_id = compiled.keyframe_id
-        self._engine_step = self._engine.step
-        self.observe = self._engine.observe
+        self.settings = given.over(self.scene.settings)
+        self.seed = self.settings.seed
+        compiled = self.scene.compile(self.settings)
+        self.vehicles = MappingProxyType(compiled.vehicles)
 
-        self._timestep = float(self._model.opt.timestep)
-        self._clock = StepClock(self._timestep)
-        self._names = tuple(self._vehicles)
-        self._index = {name: i for i, name in enumerate(self._names)}
+        self._engine = engine = Engine(
+            compiled.model, [vehicle.body_id for vehicle in compiled.vehicles.values()]
+        )
+        self.model, self.data, self.observed = engine.model, engine.data, engine.observed
+        self._engine_step, self.observe = engine.step, engine.observe
+        self.energy_balance, self.largest = engine.energy_balance, engine.largest
+        self.timestep = float(self.model.opt.timestep)
+        self._clock = StepClock(self.timestep)
+
+        self._commands = commands = Commands(engine, compiled)
+        self._events = Events(engine, compiled, commands)
+        self._streams, self._wrenches = commands.streams, commands.wrenches
+        self.streams, self.flow_source = self._streams.available, self._streams.source
+        self.vehicle, self.apply = commands.vehicle, commands.apply
+        self.set_thrust, self.set_joints = commands.set_thrust, commands.set_joints
+        self.set_wind, self.set_current = commands.set_wind, commands.set_current
+        self.enable_wind, self.set_wrench = commands.enable_wind, commands.set_wrench
         self.reset()
 
-    # ---- what it is ------------------------------------------------------------------------
-
-    @property
-    def observed(self) -> mujoco.MjData:
-        """The copy that the last ``observe(forces=True)`` evaluated; only to be read."""
-        return self._engine.observed
-
-    @property
-    def timestep(self) -> float:
-        """Timestep of the scene [s]; rates count in it, also after ``set_timestep``."""
-        return self._timestep
+    # ---- time ------------------------------------------------------------------------------
 
     @property
     def step_count(self) -> int:
@@ -101,8 +108,8 @@ class Simulation(CommandedScene):
 
     @property
     def next_change(self) -> int:
-        """Step at which a scheduled event or a gait next takes effect (``schedule.NEVER``)."""
-        return min(self._schedule.next_step, self._gaits.next_step)
+        """Step at which a scheduled event or a gait next takes effect (``NEVER``)."""
+        return self._events.next_change
 
     @property
     def tick(self) -> int:
@@ -123,60 +130,45 @@ class Simulation(CommandedScene):
 
     def step(self, n: int = 1) -> None:
         """
-        Take n steps; every one of them is checked.
+        Take steps; every one of them is checked.
+
+        Parameters
+        ----------
+        n
+            How many.
 
         Raises
         ------
         DivergedError
-            At the first step that ends with a number that is not finite, or that MuJoCo answers
-            with one of its silent resets. The simulation then needs ``reset`` or ``load_state``.
+            At the first step that ends with a number that is not finite, or in a silent reset of
+            MuJoCo's. The simulation then needs ``reset`` or ``load_state``.
 
         """
-        end = self._step + n
-        if self._clock.retimed:
-            self._step_retimed(end)
-            return
-        if end > self.next_change or self._wrenches:
-            self._step_with_events(end)
-            return
-        done = self._engine_step(n)
-        self._step += done
-        if done != n:
-            raise self._engine.divergence()
-
-    def _step_with_events(self, end: int) -> None:
+        end, clock, events = self._step + n, self._clock, self._events
         while self._step < end:
-            self._begin_step(self._step)
-            stop = min(end, self.next_change)
-            if self._wrenches:
-                # the axes of a commanded wrench turn with the body: hold them over one step only
-                stop = self._step + 1
-            n = stop - self._step
-            done = self._engine_step(n)
+            stop = end
+            if end > events.next_change or self._wrenches or clock.retimed:
+                events.begin_step(self.tick)
+                stop = min(end, events.next_change)
+                if self._wrenches or clock.retimed:
+                    # the axes of a commanded wrench turn with the body: they hold for one step
+                    stop = self._step + 1
+            steps = stop - self._step
+            done = self._engine_step(steps)
             self._step += done
-            if done != n:
+            if done != steps:
                 raise self._engine.divergence()
-
-    def _step_retimed(self, end: int) -> None:
-        while self._step < end:
-            self._begin_step(self.tick)
-            if self._engine_step(1) != 1:
-                raise self._engine.divergence()
-            self._step += 1
-
-    def _begin_step(self, tick: int) -> None:
-        """Apply what takes effect with the step from here."""
-        for change in self._schedule.take_due(tick):
-            self.apply(change)
-        self._gaits.write_due(tick, self._data.ctrl)
-        self._write_wrenches()
 
     def set_timestep(self, timestep: Fraction) -> None:
         """
-        Step on with another timestep [s], for a loop that another clock drives; until ``reset``.
+        Step on with another timestep until ``reset``, for a loop that another clock drives.
 
-        Rates and the scene's events keep to the timestep of the scene: they take effect at the
-        first boundary at or after their time.
+        Rates and events keep to the scene's: they take effect at the next boundary.
+
+        Parameters
+        ----------
+        timestep
+            [s], not above the scene's.
 
         Raises
         ------
@@ -184,19 +176,19 @@ class Simulation(CommandedScene):
             If it is not above 0, is longer than the scene's, or a gait is running.
 
         """
-        if not 0 < timestep <= exact(self._timestep):
-            raise ConfigError(
-                f'timestep {float(timestep):g} s: must be above 0, and not longer than the '
-                f"scene's ({self._timestep:g} s)"
-            )
-        if self._gaits.running:
+        if self._events.gaits.running:
             raise ConfigError("the scene's gait keeps the scene's timestep")
         self._clock.retime(self._step, timestep)
-        self._model.opt.timestep = self._clock.timestep
+        self.model.opt.timestep = self._clock.timestep
 
     def reset(self, keyframe: str | None = None) -> None:
         """
-        Go back to time 0 at a keyframe (default: the scene's), without commands.
+        Go back to time 0, without commands.
+
+        Parameters
+        ----------
+        keyframe
+            Where to begin; None: at the scene's keyframe, or as the model stands.
 
         Raises
         ------
@@ -204,29 +196,27 @@ class Simulation(CommandedScene):
             If the model has no such keyframe.
 
         """
-        identity = self._keyframe_id
-        if keyframe is not None:
-            identity = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_KEY, keyframe)
-            if identity < 0:
-                names = listed(self._model.key(i).name for i in range(self._model.nkey))
-                raise CommandError(f"keyframe '{keyframe}' is not in the model; it has: {names}")
+        self._engine.reset(self.scene.keyframe if keyframe is None else keyframe)
         self._clock.restart()
-        self._model.opt.timestep = self._timestep
-        self._engine.reset(identity)
+        self.model.opt.timestep = self.timestep
         self._streams.reset()
-        self._schedule.rewind(0)
-        self._gaits.restart(0)
         self._step = 0
         self._wrenches.clear()
+        self._events.restart(0, (), None)
 
     def close(self) -> None:
         """Release nothing that Python would not; here so that every source can be closed."""
 
-    # ---- events ----------------------------------------------------------------------------
-
     def schedule(self, time_ns: int, change: ScheduledEvent) -> None:
         """
-        Have a change take effect at the first step boundary at or after ``time_ns`` [ns].
+        Have a change take effect at the first step boundary at or after a time.
+
+        Parameters
+        ----------
+        time_ns
+            Simulated time [ns].
+        change
+            What changes.
 
         Raises
         ------
@@ -234,11 +224,7 @@ class Simulation(CommandedScene):
             If the scene has no such medium; see ``set_wind``.
 
         """
-        if change.wind is not None:
-            self._streams.check('wind')
-        if change.current is not None:
-            self._streams.check('current')
-        self._schedule.add(Event(max(self._clock.tick_at(time_ns), self.tick), change))
+        self._events.add(max(self._clock.tick_at(time_ns), self.tick), change)
 
     def reseed(self) -> None:
         """Start turbulence and other noise anew at the present time, with this run's seed."""
@@ -248,42 +234,32 @@ class Simulation(CommandedScene):
 
     def snapshot(self) -> Snapshot:
         """Return the state of every vehicle at this step boundary, as copies."""
-        rows = self.observe(forces=False).copy()
-        states = {
-            name: VehicleState(
-                position_w=row[nat.POSITION],
-                quat_wb_wxyz=row[nat.QUATERNION],
-                velocity_b=row[nat.LINEAR_VELOCITY],
-                omega_b=row[nat.ANGULAR_VELOCITY],
-                medium_velocity_w=row[nat.MEDIUM_VELOCITY],
-            )
-            for name, row in zip(self._names, rows, strict=True)
-        }
-        return Snapshot(time=self.time, step=self._step, vehicles=states)
-
-    def largest(self) -> Largest:
-        """Return a watch for the largest speed, tilt and distance of each vehicle."""
-        return Largest(self._engine)
-
-    def energy_balance(self) -> EnergyBalance:
-        """Return kinetic energy, what the integrator feeds in, and what drag takes out."""
-        return self._engine.energy_balance()
+        return Snapshot.of(self.time, self._step, self.vehicles, self.observe(forces=False))
 
     def wrench(self, vehicle: str) -> dict[str, ForceTorque]:
         """
         Return the fluid wrench on a vehicle term by term, at this step boundary.
 
-        Keys are ``plugins.native.TERMS``; each value is (force, torque), [N] and [N m], shape (3,)
-        each, base_link axes, about the base_link origin, acting on the vehicle. Terms that the
-        scene does not have are zero.
+        Parameters
+        ----------
+        vehicle
+            Vehicle name.
+
+        Returns
+        -------
+        dict
+            Term (``plugins.native.TERMS``) -> (force, torque), [N] and [N m], shape (3,) each,
+            base_link axes, about its origin, acting on the vehicle; 0 for what is not there.
+
+        Raises
+        ------
+        CommandError
+            If the scene has no such vehicle.
+
         """
-        self.vehicle(vehicle)
-        row = self.observe(forces=True)[self._index[vehicle]].copy()
-        terms = {}
-        for term in nat.TERMS:
-            force_torque = row[nat.term_columns(term)]
-            terms[term] = (force_torque[:3], force_torque[3:])
-        return terms
+        self.vehicle(vehicle)  # says which there are
+        rows = self.observe(forces=True)
+        return terms_of(rows[list(self.vehicles).index(vehicle)].copy())
 
     # ---- save and load ---------------------------------------------------------------------
 
@@ -294,14 +270,19 @@ class Simulation(CommandedScene):
             streams=self._streams.save(),
             step=self._step,
             wrenches=dict(self._wrenches),
-            added_events=self._schedule.added(),
-            gaits=self._gaits.running,
+            added_events=self._events.schedule.added(),
+            gaits=self._events.gaits.running,
             pace=self._clock.save(),
         )
 
     def load_state(self, state: SavedState) -> None:
         """
         Go to a saved state.
+
+        Parameters
+        ----------
+        state
+            Of the same scene and settings.
 
         Raises
         ------
@@ -312,10 +293,8 @@ class Simulation(CommandedScene):
         self._engine.load(state.engine)
         self._streams.load(state.streams)
         self._step = state.step
-        self._clock.restart()
-        if state.pace is not None:
-            self._clock.load(state.pace)
-        self._model.opt.timestep = self._clock.timestep
-        self._wrenches = dict(state.wrenches)
-        self._schedule.rewind(self.tick, state.added_events)
-        self._gaits.restart(self.tick, state.gaits)
+        self._clock.load(state.pace)
+        self.model.opt.timestep = self._clock.timestep
+        self._wrenches.clear()
+        self._wrenches.update(state.wrenches)
+        self._events.restart(self.tick, state.added_events, state.gaits)

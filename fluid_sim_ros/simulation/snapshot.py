@@ -1,9 +1,10 @@
 """What the simulation shows of itself at one step boundary."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins import native as nat
 
 #: Force [N] and torque [N m], base_link axes, about the base_link origin, acting on the vehicle.
 ForceTorque = tuple[Array, Array]
@@ -53,3 +54,54 @@ class Snapshot:
     time: float
     step: int
     vehicles: Mapping[str, VehicleState]
+
+    @classmethod
+    def of(cls, time: float, step: int, names: Iterable[str], rows: Array) -> 'Snapshot':
+        """
+        Return the snapshot that observed rows are; they are copied.
+
+        Parameters
+        ----------
+        time, step
+            Simulated time [s], and steps since the last reset.
+        names
+            Of the vehicles.
+        rows
+            One per vehicle, with the columns of ``plugins.native``.
+
+        Returns
+        -------
+        Snapshot
+            Of all vehicles.
+
+        """
+        states = {
+            name: VehicleState(
+                position_w=row[nat.POSITION],
+                quat_wb_wxyz=row[nat.QUATERNION],
+                velocity_b=row[nat.LINEAR_VELOCITY],
+                omega_b=row[nat.ANGULAR_VELOCITY],
+                medium_velocity_w=row[nat.MEDIUM_VELOCITY],
+            )
+            for name, row in zip(names, rows.copy(), strict=True)
+        }
+        return cls(time, step, states)
+
+
+def terms_of(row: Array) -> dict[str, ForceTorque]:
+    """
+    Return the fluid wrench of one vehicle, term by term.
+
+    Parameters
+    ----------
+    row
+        As observed with forces, with the columns of ``plugins.native``; not copied.
+
+    Returns
+    -------
+    dict
+        Term (``plugins.native.TERMS``) -> (force, torque).
+
+    """
+    columns = {term: row[nat.term_columns(term)] for term in nat.TERMS}
+    return {term: (wrench[:3], wrench[3:]) for term, wrench in columns.items()}

@@ -8,7 +8,7 @@ from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.plugins.native import native
-from fluid_sim_ros.scene.media import OPTION
+from fluid_sim_ros.scene.media import MOST_SEEDS, OPTION
 from fluid_sim_ros.simulation.engine import Engine
 
 STREAMS = ('wind', 'current')
@@ -71,7 +71,7 @@ class WindAndCurrent:
 
     def seed(self, seed: int) -> None:
         """Start what is random anew, with a seed, at the present time."""
-        native().seed_medium(*self._engine.addresses, float(seed))
+        native().seed_medium(*self._engine.addresses, float(seed % MOST_SEEDS))
 
     def check(self, name: str) -> None:
         """Raise CommandError for a stream that the scene does not have."""

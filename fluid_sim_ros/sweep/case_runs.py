@@ -11,6 +11,7 @@ from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.batch import BatchRuns
 from fluid_sim_ros.simulation.engine import Largest
@@ -166,26 +167,20 @@ class CaseRunner:
     def prepare(self, values: Mapping[str, Value]) -> CompiledRun:
         """Return the simulation of a case, compiled at most once for equal settings."""
         masses = tuple((k, float(v)) for k, v in values.items() if k.startswith('mass.'))
-        settings = {
-            name: values.get(name, getattr(self._sweep, name))
-            for name in ('timestep', 'integrator', 'fluid')
-        }
-        seed = int(values.get('seed', 0))
-        key = (*settings.values(), seed, masses)
+        settings = self._sweep.settings(values)
+        key = (settings, masses)
         ready = self._ready.get(key)
         if ready is None:
-            ready = self._ready[key] = self._compile(settings, seed, dict(masses))
+            ready = self._ready[key] = self._compile(settings, dict(masses))
             if len(self._ready) > _KEPT:
                 self._ready.popitem(last=False)
         return ready
 
-    def _compile(
-        self, settings: Mapping[str, Any], seed: int, masses: Mapping[str, float]
-    ) -> CompiledRun:
+    def _compile(self, settings: RunSettings, masses: Mapping[str, float]) -> CompiledRun:
         sweep = self._sweep
         factors = {key.removeprefix('mass.'): factor for key, factor in masses.items()}
         scene = dataclasses.replace(self._scene, masses=factors)
-        simulation = Simulation(scene, seed=seed, **settings)
+        simulation = Simulation(scene, **settings.model_dump())
         timestep = simulation.timestep
         names = tuple(f'{name}.{key}' for name in simulation.vehicles for key in COLUMNS)
         steps = whole_steps(sweep.duration or scene.duration, timestep, "key 'duration'")
@@ -200,7 +195,7 @@ class CaseRunner:
         return CompiledRun(simulation, steps, holds.period, holds, largest, names, None)
 
 
-_FLOWS = {'wind': Simulation.set_wind, 'current': Simulation.set_current}
+_FLOWS = ('wind', 'current')
 
 
 def start(simulation: Simulation, values: Mapping[str, Value]) -> None:
@@ -217,7 +212,8 @@ def start(simulation: Simulation, values: Mapping[str, Value]) -> None:
                 raise ConfigError(f"vary: '{key}': the vehicle has no thrusters")
             simulation.set_thrust(name, float(value) * vehicle.thrust_range[:, 1])
     for kind, velocity in flows.items():
-        _FLOWS[kind](simulation, velocity)
+        set_flow = simulation.set_wind if kind == 'wind' else simulation.set_current
+        set_flow(velocity)
 
 
 def row_begun(index: int, values: Mapping[str, Value]) -> Row:

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Mapping
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -9,7 +10,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.schema.base import (
     NotNegative,
     Number,
@@ -19,14 +20,12 @@ from fluid_sim_ros.schema.base import (
     parse,
     read_yaml,
 )
-from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
+from fluid_sim_ros.schema.settings import Fluid, Integrator, RunSettings
 
 #: A setting that a run takes: a number, or a name (of an integrator or fluid rung).
 Value = float | int | str
 
 _SETTINGS = ('seed', 'timestep', 'integrator', 'fluid')
-#: Settings that are names; all others are numbers.
-_NAMES = {'integrator': tuple(INTEGRATORS), 'fluid': FLUID_RUNGS}
 #: Most runs of a sweep: their table is held in memory, some 300 bytes a run and vehicle.
 _MOST_RUNS = 10_000_000
 _PATTERN = re.compile(
@@ -121,8 +120,8 @@ class SweepFile(Strict):
     scene: str
     duration: Positive | None = None
     timestep: Positive | None = None
-    integrator: str | None = None
-    fluid: str | None = None
+    integrator: Integrator | None = None
+    fluid: Fluid | None = None
     sample_rate: Positive = 10.0
     seed: int = 0
     runs: Annotated[int, Field(ge=1)] = 1
@@ -147,22 +146,35 @@ class SweepFile(Strict):
             _check_values(key, variation.grid)
         return self
 
+    def settings(self, values: Mapping[str, Value]) -> RunSettings:
+        """
+        Return the settings of a run.
+
+        Parameters
+        ----------
+        values
+            The numbers of its case, which count before what the file says of all runs.
+
+        Returns
+        -------
+        RunSettings
+            Seed 0 where it does not vary.
+
+        """
+        stated = {key: getattr(self, key) for key in _SETTINGS if key != 'seed'}
+        return RunSettings(**stated | {k: v for k, v in values.items() if k in _SETTINGS})
+
 
 def _check_values(key: str, values: list[Value]) -> None:
     """Raise ValueError for a grid that a setting cannot take."""
-    if not values:
-        return
-    value = values[0]
-    if key in _NAMES:
-        for name in values:
-            if not isinstance(name, str) or name.lower() not in _NAMES[key]:
-                raise ValueError(
-                    f"vary: {key} '{name}' is not known; allowed: {listed(_NAMES[key])}"
-                )
-    elif isinstance(value, str):
-        raise ValueError(f"vary: '{key}' takes numbers, not '{value}'")
-    elif key == 'seed' and not all(float(v).is_integer() and float(v) >= 0 for v in values):
-        raise ValueError("vary: 'seed' takes whole numbers from 0 on")
+    if key in _SETTINGS:
+        for value in values:
+            try:
+                RunSettings.checked("vary: '{}'", **{key: value})
+            except ConfigError as error:
+                raise ValueError(str(error)) from None
+    elif values and isinstance(values[0], str):
+        raise ValueError(f"vary: '{key}' takes numbers, not '{values[0]}'")
 
 
 class Cases:

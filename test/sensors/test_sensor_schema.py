@@ -64,7 +64,7 @@ def test_every_scene_has_suites(scene):
     [
         ({'sonar': {}}, "unknown key 'sensors.sonar'; allowed: imu, magnetometer, barometer, "),
         ({'imu': {}}, "missing key 'sensors.imu.rate'"),
-        ({'imu': {'rate': 0}}, "key 'sensors.imu.rate': Input should be greater than 0 (got 0)"),
+        ({'imu': {'rate': 0}}, "key 'sensors.imu.rate': must be greater than 0 (got 0)"),
         (
             {'imu': {'rate': 1, 'gyroscope': {'noise': 1}}},
             "unknown key 'sensors.imu.gyroscope.noise'; allowed: density, deviation, bias_walk, "
@@ -72,8 +72,7 @@ def test_every_scene_has_suites(scene):
         ),
         (
             {'imu': {'rate': 1, 'gyroscope': {'density': -1}}},
-            "key 'sensors.imu.gyroscope.density': Input should be greater than or equal to 0 "
-            '(got -1)',
+            "key 'sensors.imu.gyroscope.density': must be greater than or equal to 0 (got -1)",
         ),
         (
             {'barometer': {'rate': 1, 'pressure': {'range': [2, 1]}}},
@@ -100,7 +99,7 @@ def test_faults(tmp_path, sensors, line):
 @pytest.mark.parametrize(
     ('home', 'line'),
     [
-        ('{latitude: 91}', "key 'home.latitude': Input should be less than or equal to 90"),
+        ('{latitude: 91}', "key 'home.latitude': must be less than or equal to 90"),
         ('{lat: 1}', "unknown key 'home.lat'; allowed: latitude, longitude, altitude, year"),
     ],
 )

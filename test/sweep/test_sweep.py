@@ -97,10 +97,20 @@ def test_the_shipped_sweeps_are_sound(name):
         ),
         ('scene: sphere\nvary: {wind.x: {gauss: [0, 1]}}', 'allowed: values, linspace, uniform'),
         ('scene: sphere\nvary: {wind.x: {values: [fast]}}', "'wind.x' takes numbers, not 'fast'"),
-        ('scene: sphere\nvary: {seed: {values: [1.5]}}', "'seed' takes whole numbers"),
-        ('scene: sphere\nvary: {integrator: {values: [Euler, RK5]}}', "integrator 'RK5' is not"),
-        ('scene: sphere\nvary: {fluid: {values: [1]}}', "fluid '1.0' is not known; allowed: none"),
+        (
+            'scene: sphere\nvary: {seed: {values: [1.5]}}',
+            "vary: 'seed': must be a valid integer",
+        ),
+        (
+            'scene: sphere\nvary: {integrator: {values: [Euler, RK5]}}',
+            "vary: 'integrator': 'RK5' is not",
+        ),
+        (
+            'scene: sphere\nvary: {fluid: {values: [1]}}',
+            "vary: 'fluid': must be a valid string",
+        ),
         ('scene: sphere\nduration: .nan\nvary: {seed: {values: [1]}}', "key 'duration'"),
+        ('scene: sphere\nintegrator: RK5', "key 'integrator': 'RK5' is not known"),
         ('scene: nowhere.xml\nvary: {seed: {values: [1]}}', 'no such file'),
     ],
 )
@@ -120,7 +130,6 @@ def test_a_faulty_file_is_one_line(tmp_path, content, line):
         ({'vary': {'wind.x': {'values': [1]}}}, 'wind: the scene is in water only'),
         ({'vary': {'mass.moon': {'values': [2]}}}, "mass of 'moon': no such body; bodies: sphere"),
         ({'vary': {'mass.sphere': {'values': [-2]}}}, 'must be above 0'),
-        ({'integrator': 'RK5'}, "integrator 'RK5' is not known"),
         ({'vary': {'thrust.sphere': {'values': [1]}}}, 'the vehicle has no thrusters'),
         ({'vary': {'thrust.moon': {'values': [1]}}}, "vehicle 'moon' is not in the scene"),
         ({'duration': 0.2001}, 'not a whole number of timesteps'),

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.charts.convergence import (
     Converged,
     RunCache,
@@ -27,10 +27,17 @@ from fluid_sim_ros.lab.motion_errors import (
     sensitivity,
 )
 from fluid_sim_ros.lab.parallel import run_parallel
-from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Problem, Setting, Trajectory
+from fluid_sim_ros.lab.problems.problem import (
+    INTEGRATORS,
+    Problem,
+    Setting,
+    Trajectory,
+    known_integrators,
+)
 from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.step_clock import whole_steps
 
 
@@ -79,8 +86,7 @@ def measure(
     """
     if timesteps:
         for timestep in timesteps:
-            if not 0 < timestep < math.inf:
-                raise ConfigError(f'timestep {timestep:g} s: must be finite and above 0')
+            RunSettings.checked(timestep=timestep)
         problem = replace(problem, timesteps=tuple(sorted(timesteps, reverse=True)))
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
@@ -199,11 +205,7 @@ def _described(
 
 
 def _settings(problem: Problem, integrators: Sequence[str]) -> list[Setting]:
-    known = {name.lower(): name for name in INTEGRATORS}
-    for name in integrators:
-        if name.lower() not in known:
-            raise ConfigError(f"integrator '{name}' is not known; allowed: {listed(INTEGRATORS)}")
-    names = [known[name.lower()] for name in integrators]
+    names = known_integrators(integrators)
     return [Setting(*row) for row in itertools.product(problem.rungs, names, problem.timesteps)]
 
 

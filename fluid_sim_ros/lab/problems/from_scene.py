@@ -8,7 +8,7 @@ from fluid_sim_ros.errors import ConfigError, ModelError
 from fluid_sim_ros.lab.problems.problem import TIMESTEPS, Problem, Rung, fits
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.fluid_models import has_body_plugins
-from fluid_sim_ros.schema.settings import FLUID_RUNGS
+from fluid_sim_ros.schema.settings import FLUID_RUNGS, RunSettings
 
 
 def of_scene(scene: str | Scene, duration: float | None = None) -> Problem:
@@ -79,7 +79,7 @@ def _poorer(scene: Scene) -> list[str]:
 
 def _rung_compiles(scene: Scene, fluid: str) -> bool:
     try:
-        scene.compile(fluid=fluid)
+        scene.compile(RunSettings(fluid=fluid))
     except (ConfigError, ModelError):
         return False
     return True

@@ -1,6 +1,6 @@
 """A problem: something that moves in a fluid, what is known of its motion, and its models."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -9,6 +9,7 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, DivergedError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact, whole_steps
 
@@ -216,6 +217,31 @@ def observed(simulation: Simulation) -> Array:
     return simulation.observe(forces=False)[:, :STATE_WIDTH].copy()
 
 
+def known_integrators(names: Sequence[str]) -> list[str]:
+    """
+    Return integrators as ``INTEGRATORS`` writes them.
+
+    Parameters
+    ----------
+    names
+        In any case.
+
+    Returns
+    -------
+    list
+        The same names.
+
+    Raises
+    ------
+    ConfigError
+        For one that is not known.
+
+    """
+    written = {name.lower(): name for name in INTEGRATORS}
+    checked = [RunSettings.checked(integrator=name).integrator or '' for name in names]
+    return [written[name.lower()] for name in checked]
+
+
 def fits(rung: Rung, timestep: float, sample: float) -> bool:
     """
     Return whether a timestep divides the sample and the scene's events and gaits.
@@ -238,7 +264,7 @@ def fits(rung: Rung, timestep: float, sample: float) -> bool:
     if (exact(sample) / exact(timestep)).denominator != 1:
         return False
     try:
-        rung.scene.compile(timestep=timestep)
+        rung.scene.compile(RunSettings(timestep=timestep))
     except ConfigError:
         return False
     return True

@@ -10,7 +10,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.lab.problems.bodies import AXES, Body, family
-from fluid_sim_ros.lab.problems.problem import INTEGRATORS
+from fluid_sim_ros.lab.problems.problem import INTEGRATORS, known_integrators
 from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
 from fluid_sim_ros.lab.stability.outcomes import outcome
@@ -73,15 +73,11 @@ def plan(
         raise ConfigError(f"both axes are '{axes['x']}'; give two different ones")
     if cells < 1:
         raise ConfigError(f'{cells} cells per axis: must be at least 1')
-    unknown = [each for each in integrators if each not in INTEGRATORS]
-    if unknown:
-        raise ConfigError(
-            f"integrator '{unknown[0]}' is not known; allowed: {listed(INTEGRATORS)}"
-        )
+    integrators = known_integrators(integrators)
     kind.body.with_values(fixed or {})
     return {
         'problem': name, **axes, 'x_range': ranges['x'], 'y_range': ranges['y'], 'cells': cells,
-        'integrators': list(integrators), 'fixed': dict(fixed or {}),
+        'integrators': integrators, 'fixed': dict(fixed or {}),
     }  # fmt: skip
 
 

@@ -23,12 +23,13 @@ from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.log import Log, LogMessage
 from fluid_sim_ros.recording.replay.compare import Difference, compare
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER, exact
 
 #: What ``changes`` may name. A wind or current holds for the whole flight, in place of those that
 #: the scene or a command set.
-CHANGES = ('timestep', 'integrator', 'fluid', 'wind', 'current', 'seed')
+CHANGES = (*RunSettings.model_fields, 'wind', 'current')
 
 
 @dataclass
@@ -78,10 +79,8 @@ def parse_changes(pairs: Sequence[str]) -> dict[str, Any]:
         try:
             if key in ('wind', 'current'):
                 changes[key] = [float(part) for part in text.split(',')]
-            elif key == 'timestep':
-                changes[key] = float(text)
             else:
-                changes[key] = int(text) if key == 'seed' else text
+                changes[key] = getattr(RunSettings.checked('--with {}', **{key: text}), key)
         except ValueError:
             raise ConfigError(f'--with {pair}: the value cannot be read') from None
     return changes
@@ -139,12 +138,11 @@ class _Repetition:
         run = description.run
         self.changed = bool(changes)
         fixed = [stream for stream in ('wind', 'current') if stream in changes]
+        settings = RunSettings.checked(
+            '--with {}', **{key: changes.get(key, run[key]) for key in RunSettings.model_fields}
+        )
         self.simulation = simulation = Simulation(
-            _without(description.scene(folder), fixed),
-            seed=changes.get('seed', run['seed']),
-            timestep=changes.get('timestep', run['timestep']),
-            integrator=changes.get('integrator', run['integrator']),
-            fluid=changes.get('fluid', run['fluid']),
+            _without(description.scene(folder), fixed), **settings.model_dump()
         )
         description.restore(simulation, changed=self.changed)
         for stream in fixed:

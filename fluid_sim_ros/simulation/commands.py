@@ -1,9 +1,6 @@
-"""A compiled scene under commands: thrust, joints, wrenches, wind and current; without time."""
+"""What a simulation is told: thrust, joints, wrenches, wind and current; checked and held."""
 
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
-
-import mujoco
 
 from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.physics.arrays import Array
@@ -15,27 +12,35 @@ from fluid_sim_ros.simulation.engine import Engine
 from fluid_sim_ros.simulation.wind_and_current import WindAndCurrent
 
 
-class CommandedScene:
+class Commands:
     """
-    The model and data of a scene, and what it is told to do.
+    The commands of a simulation: checked, written where the next step reads them, held.
 
-    Commands are written where the next step reads them, and hold until changed. A commanded
-    wrench turns with its vehicle, so it is written anew at each step, by ``_write_wrenches``.
+    A commanded wrench turns with its vehicle, so it is written anew at each step, by
+    ``write_wrenches``.
 
     Parameters
     ----------
+    engine
+        Model and data.
     compiled
-        Model, vehicles and gaits.
+        Vehicles and gaits.
+
+    Attributes
+    ----------
+    streams
+        Wind and current.
+    wrenches
+        Those that act, by vehicle.
 
     """
 
-    def __init__(self, compiled: CompiledScene) -> None:
+    def __init__(self, engine: Engine, compiled: CompiledScene) -> None:
         self._vehicles = compiled.vehicles
         self._gaits = compiled.gaits
-        self._engine = Engine(compiled.model, [v.body_id for v in self._vehicles.values()])
-        self._streams = WindAndCurrent(self._engine, compiled.streams)
-        self._model, self._data = self._engine.model, self._engine.data
-        self._wrenches: dict[str, CommandedWrench] = {}
+        self._data = engine.data
+        self.streams = WindAndCurrent(engine, compiled.streams)
+        self.wrenches: dict[str, CommandedWrench] = {}
         control = self._data.ctrl
         self._thrusts = {
             v.name: Controls(
@@ -50,38 +55,26 @@ class CommandedScene:
             for v in self._vehicles.values()
         }
 
-    @property
-    def model(self) -> mujoco.MjModel:
-        """The MuJoCo model; change it only between steps."""
-        return self._model
-
-    @property
-    def data(self) -> mujoco.MjData:
-        """The MuJoCo data that is stepped."""
-        return self._data
-
-    @property
-    def streams(self) -> tuple[str, ...]:
-        """Which of wind and current the scene has."""
-        return self._streams.available
-
-    @property
-    def flow_source(self) -> str:
-        """
-        How wind and current reach the bodies.
-
-        ``opt.wind``: one velocity for the whole scene. ``fluid_sim.medium``: each body meets its
-        own, by place and time.
-        """
-        return self._streams.source
-
-    @property
-    def vehicles(self) -> Mapping[str, Vehicle]:
-        """Vehicles by name."""
-        return MappingProxyType(self._vehicles)
-
     def vehicle(self, name: str) -> Vehicle:
-        """Return a vehicle by name, or raise CommandError with the names that exist."""
+        """
+        Return a vehicle.
+
+        Parameters
+        ----------
+        name
+            Vehicle name.
+
+        Returns
+        -------
+        Vehicle
+            With its names as ids of the model.
+
+        Raises
+        ------
+        CommandError
+            If the scene has no such vehicle, with the names that it has.
+
+        """
         try:
             return self._vehicles[name]
         except KeyError:
@@ -117,10 +110,28 @@ class CommandedScene:
 
     def set_joints(self, vehicle: str, values: Mapping[str, float] | Sequence[float]) -> int:
         """
-        Command the joint actuators of a vehicle, by name or all in order; as ``set_thrust``.
+        Command the joint actuators of a vehicle, by name or all in order.
 
-        A mapping may name some of them; the others keep their commands. It ends the scene's gait
-        of this vehicle until the next reset.
+        It ends the scene's gait of this vehicle until the next reset.
+
+        Parameters
+        ----------
+        vehicle
+            Vehicle name.
+        values
+            Commands in the unit of each actuator [rad], [m]; a mapping may name some of the
+            joints, the others keep their commands.
+
+        Returns
+        -------
+        int
+            How many values were beyond the actuators' range and therefore saturated.
+
+        Raises
+        ------
+        CommandError
+            Unknown vehicle or joint, wrong length, or a value that is not finite.
+
         """
         target, joints = self.vehicle(vehicle), self._joints[vehicle]
         if isinstance(values, Mapping):
@@ -138,7 +149,12 @@ class CommandedScene:
 
     def set_wind(self, velocity: Sequence[float] | Array) -> None:
         """
-        Set the wind [m/s, world axes, the direction that the air moves to].
+        Set the wind.
+
+        Parameters
+        ----------
+        velocity
+            Of the air, in the direction that it moves to [m/s], world axes, shape (3,).
 
         Raises
         ------
@@ -146,15 +162,36 @@ class CommandedScene:
             Wrong length, not finite, or a scene without air.
 
         """
-        self._streams.set('wind', finite('wind', velocity, 3))
+        self.streams.set('wind', finite('wind', velocity, 3))
 
     def set_current(self, velocity: Sequence[float] | Array) -> None:
-        """Set the current of the water; as ``set_wind``."""
-        self._streams.set('current', finite('current', velocity, 3))
+        """
+        Set the current.
+
+        Parameters
+        ----------
+        velocity
+            Of the water, in the direction that it moves to [m/s], world axes, shape (3,).
+
+        Raises
+        ------
+        CommandError
+            Wrong length, not finite, or a scene without water.
+
+        """
+        self.streams.set('current', finite('current', velocity, 3))
 
     def enable_wind(self, enabled: bool) -> None:
-        """Switch wind and current on or off, gusts included; commanded velocities are kept."""
-        self._streams.enable(enabled)
+        """
+        Switch wind and current on or off, gusts included; commanded velocities are kept.
+
+        Parameters
+        ----------
+        enabled
+            Whether they act.
+
+        """
+        self.streams.enable(enabled)
 
     def set_wrench(
         self,
@@ -184,12 +221,25 @@ class CommandedScene:
         target = self.vehicle(vehicle)
         wrench = CommandedWrench.checked(target, force, torque, frame)
         if not wrench.is_zero():
-            self._wrenches[vehicle] = wrench
-        elif self._wrenches.pop(vehicle, None):
+            self.wrenches[vehicle] = wrench
+        elif self.wrenches.pop(vehicle, None):
             self._data.qfrc_applied[target.dof_address : target.dof_address + 6] = 0
 
     def apply(self, change: ScheduledEvent) -> None:
-        """Command all that a scheduled event changes."""
+        """
+        Command all that a scheduled event changes.
+
+        Parameters
+        ----------
+        change
+            Its time does not matter.
+
+        Raises
+        ------
+        CommandError
+            As for the commands one by one.
+
+        """
         if change.wind is not None:
             self.set_wind(change.wind)
         if change.current is not None:
@@ -199,7 +249,7 @@ class CommandedScene:
         for vehicle, wrench in change.wrench.items():
             self.set_wrench(vehicle, wrench.force, wrench.torque, wrench.frame)
 
-    def _write_wrenches(self) -> None:
+    def write_wrenches(self) -> None:
         """Apply the commanded wrenches at the present attitudes."""
-        for name, wrench in self._wrenches.items():
+        for name, wrench in self.wrenches.items():
             wrench.write(self._vehicles[name], self._data)
