@@ -72,7 +72,9 @@ class Native:
     ``surface(model, data, points, n, heights) -> int`` writes the height [m] of the free surface
     over n points and returns 2 where it has waves.
     ``beyond_grids(model, data, point, out) -> int`` writes how far a point lies beyond the ends of
-    the current's and the wind's grid (t, x, y, z each) and returns 1 if it does. See
+    the current's and the wind's grid (t, x, y, z each) and returns 1 if it does.
+    ``acting_terms(model, data, body, out)`` writes 1 for each of ``terms`` that can act on a body
+    into 32-bit integers; see ``plugins.acting``. See
     plugins/src/api/ for their meaning.
 
     Parameters
@@ -142,6 +144,9 @@ class Native:
         self.beyond_grids: Callable[[int, int, int, int], int] = library.fsr_beyond_grids
         library.fsr_beyond_grids.argtypes = [pointer] * 4
         library.fsr_beyond_grids.restype = integer
+        self.acting_terms: Callable[[int, int, int, int], None] = library.fsr_acting_terms
+        library.fsr_acting_terms.argtypes = [pointer, pointer, integer, pointer]
+        library.fsr_acting_terms.restype = None
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p

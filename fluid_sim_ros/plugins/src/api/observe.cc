@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "api/api.h"
+#include "assembly/acting.h"
 #include "assembly/assembly.h"
 
 namespace fluid_sim {
@@ -135,4 +136,11 @@ FSR_API void fsr_look(const mjModel* m, const mjData* d, mjData* scratch, const 
                             mju_dist3(row + kPosition, start + 3 * i)};
     for (int k = 0; k < 3; ++k) largest[3 * i + k] = std::fmax(largest[3 * i + k], seen[k]);
   }
+}
+
+// Which terms can act on a body: acts[kTermCount] gets 1 for each that can, else 0.
+FSR_API void fsr_acting_terms(const mjModel* m, const mjData* d, int body, int* acts) {
+  bool can[kTermCount];
+  ActingTerms(m, d, body, can);
+  for (int i = 0; i < kTermCount; ++i) acts[i] = can[i];
 }

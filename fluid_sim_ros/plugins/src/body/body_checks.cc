@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "body/stock_terms.h"
 #include "shared/spatial.h"
 
 namespace fluid_sim {
@@ -15,10 +16,6 @@ std::string Format(mjtNum value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", value);
   return text;
-}
-
-bool StockActs(const mjModel* m, int body) {
-  return (m->opt.density > 0 || m->opt.viscosity > 0) && m->body_mass[body] >= mjMINVAL;
 }
 
 // First dof above (or of) the body, or -1 for a body that cannot move.

@@ -60,14 +60,20 @@ void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const StockWind& 
   }
 }
 
+}  // namespace
+
+bool StockActs(const mjModel* m, int body) {
+  const int passive = mjDSBL_SPRING | mjDSBL_DAMPER;
+  return (m->opt.density > 0 || m->opt.viscosity > 0) && m->body_mass[body] >= mjMINVAL &&
+         (m->opt.disableflags & passive) != passive;
+}
+
 bool HasEllipsoidGeom(const mjModel* m, int body) {
   for (int i = 0; i < m->body_geomnum[body]; ++i) {
     if (m->geom_fluid[mjNFLUID * (m->body_geomadr[body] + i)] > 0) return true;
   }
   return false;
 }
-
-}  // namespace
 
 void AddLocalWrench(const Wrench& local, const mjtNum* rotation, const mjtNum origin_w[3],
                     const mjtNum point_w[3], mjtNum scale, Wrench* target_w) {
@@ -83,9 +89,7 @@ void AddLocalWrench(const Wrench& local, const mjtNum* rotation, const mjtNum or
 
 void AddStockTerms(const mjModel* m, const mjData* d, int body, const StockWind& wind,
                    const mjtNum point_w[3], Wrench terms[kTermCount]) {
-  if (m->opt.density <= 0 && m->opt.viscosity <= 0) return;
-  if (m->body_mass[body] < mjMINVAL) return;
-  if ((m->opt.disableflags & mjDSBL_SPRING) && (m->opt.disableflags & mjDSBL_DAMPER)) return;
+  if (!StockActs(m, body)) return;
   if (!HasEllipsoidGeom(m, body)) {
     AddInertiaBox(m, d, body, wind, point_w, terms);
     return;

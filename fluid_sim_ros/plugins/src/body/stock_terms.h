@@ -16,6 +16,13 @@ struct StockWind {
   const mjtNum* spin;
 };
 
+// MuJoCo's own fluid forces act on the body: there is a fluid in opt, the body has mass, and its
+// passive forces are on.
+bool StockActs(const mjModel* m, int body);
+
+// A geom of the body has fluidshape="ellipsoid"; without one MuJoCo takes the inertia box.
+bool HasEllipsoidGeom(const mjModel* m, int body);
+
 // Add the terms of `body` in a wind to terms[kTermCount], in world axes, torques about `point_w`.
 // `d` must hold the positions and velocities of the state in question (mj_forward or the like).
 void AddStockTerms(const mjModel* m, const mjData* d, int body, const StockWind& wind,

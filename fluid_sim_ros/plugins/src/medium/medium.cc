@@ -98,6 +98,13 @@ mjtNum LowerViscosity(const Medium& medium, const mjModel* m) {
   return medium.in_charge() ? medium.viscosity[0] : m->opt.viscosity;
 }
 
+FluidConstants StrongestFluid(const Medium& medium, const mjModel* m) {
+  if (!medium.in_charge()) return {m->opt.density, m->opt.viscosity};
+  if (!medium.has_surface) return {medium.density[0], medium.viscosity[0]};
+  return {std::max(medium.density[0], medium.density[1]),
+          std::max(medium.viscosity[0], medium.viscosity[1])};
+}
+
 mjtNum SurfaceHeight(const Medium& medium, const mjData* d, const mjtNum point_w[3]) {
   if (!medium.wavy()) return medium.surface;
   return WaveHeight(medium.waves, d->time, point_w);

@@ -16,6 +16,7 @@
 #include "medium/stream.h"
 #include "medium/turbulence.h"
 #include "medium/waves.h"
+#include "shared/terms.h"
 
 namespace fluid_sim {
 
@@ -75,6 +76,9 @@ bool ReadMedium(const mjModel* m, Medium* medium);
 // Density and viscosity of the lower (only) fluid.
 mjtNum LowerDensity(const Medium& medium, const mjModel* m);
 mjtNum LowerViscosity(const Medium& medium, const mjModel* m);
+
+// The largest density and the largest viscosity of the fluids that a body can meet.
+FluidConstants StrongestFluid(const Medium& medium, const mjModel* m);
 
 // Height of the free surface over a point at the data's time, world z [m].
 mjtNum SurfaceHeight(const Medium& medium, const mjData* d, const mjtNum point_w[3]);

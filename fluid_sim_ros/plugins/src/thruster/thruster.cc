@@ -232,6 +232,14 @@ const Thruster* FindThruster(const mjModel* m, const mjData* d, int actuator) {
   return instance >= 0 && IsThruster(m, instance) ? Stored(d, instance) : nullptr;
 }
 
+bool HasRotorDrag(const mjModel* m, const mjData* d, int body) {
+  for (int i = 0; i < m->nplugin; ++i) {
+    const Thruster* t = IsThruster(m, i) ? Stored(d, i) : nullptr;
+    if (t && t->body == body && t->has_drag()) return true;
+  }
+  return false;
+}
+
 void AddRotorTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                    Wrench terms[kTermCount]) {
   for (int i = 0; i < m->nplugin; ++i) {

@@ -83,6 +83,9 @@ RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& th
 // The thruster that an actuator belongs to, or null.
 const Thruster* FindThruster(const mjModel* m, const mjData* d, int actuator);
 
+// A rotor on `body` is dragged by the flow across and along it.
+bool HasRotorDrag(const mjModel* m, const mjData* d, int body);
+
 // Add the drag of the rotors on `body` in world axes about `point_w`.
 void AddRotorTerms(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                    Wrench terms[kTermCount]);
