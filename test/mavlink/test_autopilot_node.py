@@ -13,7 +13,8 @@ from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from test.support.autopilots.ardupilot_stand_in import Copter, Link, padded
 from test.support.autopilots.autopilot_peers import free_port
-from test.support.autopilots.px4_stand_in import Px4, Quad
+from test.support.autopilots.px4_pilots import Quad
+from test.support.autopilots.px4_stand_in import Px4
 from test.support.ros_processes import Peer, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]

@@ -17,7 +17,7 @@ from test.support.autopilots.ardupilot_stand_in import (
     VECTORED_6DOF,
     quad_x_factors,
 )
-from test.support.autopilots.px4_stand_in import HEAVY, IRIS
+from test.support.autopilots.px4_pilots import HEAVY, IRIS
 
 #: Force and torque in FRD axes of a wrench in FLU axes.
 FRD = np.array([1, -1, -1, 1, -1, -1])

@@ -4,37 +4,36 @@ import mujoco
 import numpy as np
 import pytest
 
-from benchmarks.plugins import plugin_closed_forms as bench
+from benchmarks.plugins.float_closed_forms import WATER, G
 from fluid_sim_ros.physics.kappa import ellipsoid_added_mass, ellipsoid_volume
+from test.support.oscillations import oscillation, period
 from test.support.plugin_models import body_plugin, ellipsoid, free_body, load, text, world
 
-LAKE = {'density': bench.WATER, 'surface': 0}
+LAKE = {'density': WATER, 'surface': 0}
 
 
 @pytest.mark.parametrize('axes', [[0.2, 0.2, 0.2], [0.35, 0.25, 0.15], [0.1, 0.3, 0.4]])
 def test_heave_of_a_half_sunk_ellipsoid_with_its_own_added_mass(axes):
     """omega^2 = rho g pi r_x r_y / (m + m_z/2): half of it is wet, and half of m_z moves along."""
-    inside = ellipsoid(axes, bench.WATER / 2) + body_plugin(
+    inside = ellipsoid(axes, WATER / 2) + body_plugin(
         added_mass='auto', volume='auto', drag='none'
     )
-    model, data = load(
-        world(free_body(inside), gravity=(0, 0, -bench.G), timestep=0.002, medium=LAKE)
-    )
+    model, data = load(world(free_body(inside), gravity=(0, 0, -G), timestep=0.002, medium=LAKE))
     data.qpos[2] = 1e-5
-    times, height = bench.oscillation(model, data, lambda: data.qpos[2], 10.0)
-    mass = bench.WATER / 2 * float(ellipsoid_volume(axes))
-    total = mass + ellipsoid_added_mass(axes, bench.WATER)[0][2] / 2
-    stiffness = bench.WATER * bench.G * np.pi * axes[0] * axes[1]
+    times, height = oscillation(model, data, lambda: data.qpos[2], 10.0)
+    mass = WATER / 2 * float(ellipsoid_volume(axes))
+    total = mass + ellipsoid_added_mass(axes, WATER)[0][2] / 2
+    stiffness = WATER * G * np.pi * axes[0] * axes[1]
     expected = 2 * np.pi * np.sqrt(total / stiffness)
-    assert bench.period(times, height) == pytest.approx(expected, rel=1e-3)
+    assert period(times, height) == pytest.approx(expected, rel=1e-3)
 
 
 def tilted_box(half_width):
     """Return the largest roll [rad] within 20 s of a half-sunk box of half-height .1 m."""
     half = [0.3, half_width, 0.1]
-    inside = f'<geom type="box" size="{text(half)}" density="{bench.WATER / 2}"/>'
+    inside = f'<geom type="box" size="{text(half)}" density="{WATER / 2}"/>'
     damping = body_plugin(volume='auto', linear_damping=[50, 50, 50, 1, 1, 1])
-    model, data = load(world(free_body(inside + damping), gravity=(0, 0, -bench.G), medium=LAKE))
+    model, data = load(world(free_body(inside + damping), gravity=(0, 0, -G), medium=LAKE))
     roll = 0.01
     data.qpos[3:] = [np.cos(roll / 2), np.sin(roll / 2), 0, 0]
     largest = 0.0

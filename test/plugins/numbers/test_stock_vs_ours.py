@@ -2,7 +2,8 @@
 
 import pytest
 
-from benchmarks.plugins import plugin_stock_vs_ours as bench
+from benchmarks.plugins.plugin_stock_vs_ours import table
+from benchmarks.plugins.stock_vs_ours_cases import Row, measure
 
 #: Case (its first words) -> largest error of ours, least error of stock.
 BOUNDS = {
@@ -23,7 +24,7 @@ BOUNDS = {
 
 @pytest.fixture(scope='module')
 def rows():
-    return bench.measure(9)
+    return measure(9)
 
 
 def test_every_row_has_bounds(rows):
@@ -42,6 +43,6 @@ def test_row(rows, case):
 
 
 def test_table_shows_value_and_error():
-    row = bench.Row('case', 'm', 2.0, 3.0, 2.0 + 2e-6)
+    row = Row('case', 'm', 2.0, 3.0, 2.0 + 2e-6)
     expected = '| case [m] | 2 | 3 (50 %) | 2 (1e-06) |'
-    assert bench.table([row]).splitlines()[-1] == expected
+    assert table([row]).splitlines()[-1] == expected

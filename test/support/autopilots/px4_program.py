@@ -3,7 +3,8 @@
 import argparse
 import os
 
-from test.support.autopilots.px4_stand_in import Px4, Quad
+from test.support.autopilots.px4_pilots import Quad
+from test.support.autopilots.px4_stand_in import Px4
 
 
 def main() -> None:

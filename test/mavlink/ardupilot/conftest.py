@@ -1,0 +1,19 @@
+import pytest
+
+from test.support.autopilots.ardupilot_stand_in import (
+    Link,
+)
+from test.support.autopilots.autopilot_peers import Flight
+
+
+@pytest.fixture
+def flight():
+    with Flight('x500_ground', 'ardupilot').running() as flight:
+        yield flight
+
+
+@pytest.fixture
+def link(flight):
+    link = Link(flight.port)
+    yield link
+    link.close()

@@ -1,0 +1,64 @@
+"""A stand-in for ArduPilot flies, over real sockets."""
+
+import math
+
+import pytest
+
+from test.support.autopilots.ardupilot_stand_in import (
+    VECTORED,
+    VECTORED_6DOF,
+    Copter,
+    Link,
+    Plane,
+    Submarine,
+    padded,
+)
+from test.support.autopilots.autopilot_peers import Flight
+
+IDLE = padded([1000] * 4)
+
+
+def test_a_copter_takes_off_and_holds_its_place(flight, link):
+    copter = Copter((2.0, 1.0, -3.0), hover=0.77)
+    state = link.exchange(IDLE)
+    for _ in range(4000):
+        state = link.exchange(copter.pulses(state))
+    assert state['position'] == pytest.approx([2.0, 1.0, -3.0], abs=0.03)
+    assert [math.degrees(a) for a in state['attitude']] == pytest.approx([0, 0, 90], abs=0.5)
+
+
+def test_an_aircraft_waits_on_its_wheels_and_takes_off():
+    with Flight('aerosonde_ground', 'ardupilot').running() as flight:
+        link, plane = Link(flight.port), Plane()
+        for _ in range(400):
+            state = link.exchange(padded([1500, 1500, 1000, 1500]))
+        assert state['position'] == pytest.approx([0, 0, -0.4145], abs=1e-3)
+        for _ in range(4800):
+            state = link.exchange(plane.pulses(state))
+        north, east, down = state['position']
+        assert down < -30.0
+        assert east > 200.0
+        assert abs(north) < 20.0
+
+
+@pytest.mark.parametrize(
+    ('scene', 'factors'), [('bluerov2', VECTORED), ('bluerov2_heavy', VECTORED_6DOF)]
+)
+def test_a_submarine_dives_turns_and_goes_ahead(scene, factors):
+    yaw = math.pi / 2 + 0.5
+    with Flight(scene, 'ardupilot').running() as flight:
+        link = Link(flight.port)
+        state = link.exchange(padded([1500] * 8))
+        submarine = Submarine(factors, 6.0, yaw)
+        for _ in range(3200):
+            state = link.exchange(submarine.pulses(state))
+        assert state['position'][2] == pytest.approx(6.0, abs=0.15)
+        assert state['attitude'][0] == pytest.approx(0.0, abs=0.02)
+        assert state['attitude'][2] == pytest.approx(yaw, abs=0.2)  # dead zone
+        submarine.forward = 0.4
+        before = state['position']
+        for _ in range(800):
+            state = link.exchange(submarine.pulses(state))
+        north, east = (b - a for a, b in zip(before[:2], state['position'][:2], strict=True))
+        assert math.atan2(east, north) == pytest.approx(state['attitude'][2], abs=0.2)
+        assert math.hypot(north, east) > 0.3
