@@ -5,6 +5,7 @@ A table stands between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``. Run by
 test fails when a table in the documentation is not what would be written.
 """
 
+import ast
 import re
 import sys
 from collections.abc import Callable
@@ -15,6 +16,7 @@ from fluid_sim_ros.ros import parameters
 from fluid_sim_ros.scene import Scene, scene_names
 
 ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / 'fluid_sim_ros'
 
 
 def scenes() -> str:
@@ -49,10 +51,37 @@ def advice() -> str:
     return (ROOT / 'benchmarks' / 'results' / 'lab_advise_table.md').read_text().strip()
 
 
+def rooms() -> str:
+    """Return the package's tree in the order of imports, with what each room says of itself."""
+    sys.path.insert(0, str(ROOT / 'test' / 'packaging'))
+    from layers import LEAVES, ORDER
+
+    lines = []
+    for room in ORDER:
+        for path in _modules_of(room):
+            depth = len(path.parts) - (2 if path.name == '__init__.py' else 1)
+            name = path.parent.name + '/' if path.name == '__init__.py' else path.name
+            words = (
+                ast.get_docstring(ast.parse((PACKAGE / path).read_text())) or ''
+            ).splitlines()[0]
+            leaf = ' (leaf)' if room in LEAVES and depth == 0 else ''
+            lines.append(f'{"  " * depth + name:<16} {words.rstrip(".").replace("``", "")}{leaf}')
+    return '\n'.join(['```text', *lines, '```'])
+
+
+def _modules_of(room: str) -> list[Path]:
+    """Return a room's file, or the ``__init__.py`` of its folder and of those inside."""
+    if (PACKAGE / f'{room}.py').exists():
+        return [Path(f'{room}.py')]
+    folders = sorted((PACKAGE / room).rglob('__init__.py'))
+    return [path.relative_to(PACKAGE) for path in folders]
+
+
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'scenes': ('README.md', scenes),
     'accuracy': ('README.md', accuracy),
     'advice': ('doc/lab.md', advice),
+    'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
 }
 

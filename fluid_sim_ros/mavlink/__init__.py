@@ -1,1 +1,1 @@
-"""Bridges to autopilots in lockstep: PX4 over MAVLink HIL, ArduPilot over JSON; a leaf."""
+"""Bridges to autopilots in lockstep: PX4 over MAVLink HIL, ArduPilot over JSON."""

@@ -1,1 +1,1 @@
-"""The ROS 2 leaf: node, messages and example controllers."""
+"""The ROS 2 node, its topics and parameters, and example controllers."""
