@@ -45,7 +45,15 @@ class Place:
 
 
 class Schema:
-    """The types of one definition; the first is the message itself."""
+    """
+    The types of one definition; the first is the message itself.
+
+    Parameters
+    ----------
+    definition
+        Text of the message type and of all types in it, encoding ``ros2msg``.
+
+    """
 
     def __init__(self, definition: str) -> None:
         self._types: dict[str, list[Field]] = {}
@@ -70,6 +78,16 @@ class Schema:
     def layout(self, data: bytes) -> tuple[list[Place], list[int]]:
         """
         Return the places of a message's numbers and strings, and those of its length words.
+
+        Parameters
+        ----------
+        data
+            The message, little-endian CDR.
+
+        Returns
+        -------
+        places, lengths
+            Places of numbers and strings; offsets of the words that state a length [bytes].
 
         Raises
         ------
@@ -155,7 +173,27 @@ class _Walk:
 
 
 def fields(definition: str, data: bytes) -> dict[str, Any]:
-    """Return every number and string of one message by its dotted name."""
+    """
+    Return every number and string of one message by its dotted name.
+
+    Parameters
+    ----------
+    definition
+        Text of the message type, encoding ``ros2msg``.
+    data
+        The message, little-endian CDR.
+
+    Returns
+    -------
+    dict
+        Number or text by name.
+
+    Raises
+    ------
+    LogError
+        If the message does not fit its definition.
+
+    """
     found: dict[str, Any] = {}
     for place in Schema(definition).layout(data)[0]:
         content = data[place.offset : place.offset + place.size]
@@ -172,6 +210,24 @@ def columns(definition: str, messages: Sequence[bytes]) -> dict[str, NDArray[Any
 
     Fields that some messages lack (sequences of changing length) hold NaN there; strings are
     object arrays.
+
+    Parameters
+    ----------
+    definition
+        Text of the message type, encoding ``ros2msg``.
+    messages
+        Messages of this type, little-endian CDR.
+
+    Returns
+    -------
+    dict
+        Array of shape (messages,) by name.
+
+    Raises
+    ------
+    LogError
+        If a message does not fit its definition.
+
     """
     schema, count = Schema(definition), len(messages)
     result: dict[str, NDArray[Any]] = {}

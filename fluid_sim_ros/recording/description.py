@@ -62,6 +62,16 @@ class RunDescription:
         """
         Read a description back.
 
+        Parameters
+        ----------
+        attachments
+            Content by name.
+
+        Returns
+        -------
+        RunDescription
+            The description.
+
         Raises
         ------
         LogError
@@ -82,7 +92,25 @@ class RunDescription:
         return cls(run, attachments[STATE], files)
 
     def scene(self, folder: Path) -> Scene:
-        """Write the model's files below ``folder`` and return the scene that uses them."""
+        """
+        Write the model's files below ``folder`` and return the scene that uses them.
+
+        Parameters
+        ----------
+        folder
+            Empty folder, which the scene needs as long as it is used.
+
+        Returns
+        -------
+        Scene
+            The scene as it was run.
+
+        Raises
+        ------
+        LogError
+            If a file would stand outside of the folder.
+
+        """
         for name, content in self.files.items():
             if '..' in PurePosixPath(name).parts or PurePosixPath(name).is_absolute():
                 raise LogError(f"attachment '{MODEL}{name}' points out of its folder")
@@ -100,6 +128,14 @@ class RunDescription:
 
         A ``changed`` simulation whose state has another size (such as without plugins) begins at
         the scene's keyframe instead.
+
+        Parameters
+        ----------
+        simulation
+            New, of the recorded scene.
+        changed
+            Whether it differs from the recorded one in a setting.
+
         """
         streams, saved = self.run['streams'], simulation.save_state()
         engine = np.frombuffer(self.state, '<f8').copy()
@@ -118,6 +154,20 @@ def describe(
 ) -> RunDescription:
     """
     Return the description of a simulation that stands at step 0.
+
+    Parameters
+    ----------
+    simulation
+        At step 0.
+    topics
+        What is recorded.
+    options
+        Of the recording; its settings become part of the description.
+
+    Returns
+    -------
+    RunDescription
+        The description.
 
     Raises
     ------
@@ -159,7 +209,21 @@ def describe(
 
 
 def model_files(path: Path) -> tuple[str, dict[str, bytes]]:
-    """Return an MJCF's relative path and the content of it and of every file it refers to."""
+    """
+    Return an MJCF's relative path and the content of it and of every file it refers to.
+
+    Parameters
+    ----------
+    path
+        MJCF file.
+
+    Returns
+    -------
+    path, files
+        Path of the model, relative to the folder that holds all of its files, and their content by
+        such a path.
+
+    """
     paths = {Path(name).resolve() for name in mujoco.mju_getXMLDependencies(str(path))}
     paths = {p for p in paths if p.is_file()} | {path.resolve()}
     root = path.resolve().parent

@@ -27,6 +27,11 @@ def export(log: Log, folder: Path, kind: str) -> list[str]:
     kind
         ``csv`` (numbers in the fewest digits that give the same bits again) or ``parquet``.
 
+    Returns
+    -------
+    list
+        Paths of the files.
+
     """
     files = []
     for topic in log.topics.values():

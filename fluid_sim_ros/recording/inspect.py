@@ -32,7 +32,20 @@ class Contents:
 
 
 def count(log: Log) -> Contents:
-    """Go through a log once and count."""
+    """
+    Go through a log once and count.
+
+    Parameters
+    ----------
+    log
+        The log.
+
+    Returns
+    -------
+    Contents
+        The counts.
+
+    """
     contents = Contents({topic.name: Count() for topic in log.topics.values()})
     total = contents.total
     for message in log.messages():
@@ -49,6 +62,17 @@ def count(log: Log) -> Contents:
 def info(path: str | Path) -> dict[str, Any]:
     """
     Return what ``fluid_sim info`` shows.
+
+    Parameters
+    ----------
+    path
+        Log file, or the folder of one.
+
+    Returns
+    -------
+    dict
+        Size, faults, topics with their rates [Hz], and the run (None, with ``run_fault``, where
+        the log has none).
 
     Raises
     ------
@@ -86,7 +110,20 @@ def info(path: str | Path) -> dict[str, Any]:
 
 
 def about(log: Log) -> list[tuple[str, str]]:
-    """Return what a reader of pictures must know of a log, as (key, text)."""
+    """
+    Return what a reader of pictures must know of a log, as (key, text).
+
+    Parameters
+    ----------
+    log
+        The log.
+
+    Returns
+    -------
+    list
+        (key, text) rows.
+
+    """
     rows = [('log', log.path.name)]
     try:
         run = log.description().run
@@ -113,9 +150,23 @@ def _rate(entry: Count) -> float | None:
 
 def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[str, Any]:
     """
-    Write all that is sound in a log to a new file; return its size and what was lost.
+    Write all that is sound in a log to a new file.
 
     ``out`` without ``.mcap`` becomes a folder that rosbag2 takes.
+
+    Parameters
+    ----------
+    path
+        Log file, or the folder of one.
+    out
+        ``.mcap`` file, or a folder that becomes a bag for rosbag2.
+    chunk_size
+        Size at which a chunk is closed [bytes].
+
+    Returns
+    -------
+    dict
+        ``path``, ``bytes`` and ``messages`` of the new file, and ``lost``: a line per fault.
 
     Raises
     ------

@@ -62,7 +62,20 @@ class Log:
     chunks: list[Chunk] = field(default_factory=list)
 
     def messages(self, topics: Collection[str] | None = None) -> Iterator[LogMessage]:
-        """Return every message of some topics (default: all) in the order of the file."""
+        """
+        Return messages in the order of the file.
+
+        Parameters
+        ----------
+        topics
+            Full names of topics; None: all.
+
+        Returns
+        -------
+        Iterator
+            The messages.
+
+        """
         wanted = {
             number: topic.name
             for number, topic in self.topics.items()
@@ -84,6 +97,16 @@ class Log:
     def topic(self, name: str) -> LogTopic:
         """
         Return a topic by name.
+
+        Parameters
+        ----------
+        name
+            Full name.
+
+        Returns
+        -------
+        LogTopic
+            The topic.
 
         Raises
         ------

@@ -40,6 +40,11 @@ class McapFile:
     """
     One file; ``start`` first, then schemas and channels, messages, ``finish``.
 
+    Parameters
+    ----------
+    stream
+        Binary stream at its start, open for writing.
+
     Attributes
     ----------
     counts
@@ -80,12 +85,36 @@ class McapFile:
         return at, len(data)
 
     def start(self, profile: str, library: str) -> None:
-        """Write the head."""
+        """
+        Write the head.
+
+        Parameters
+        ----------
+        profile
+            Of the file, such as ``ros2``.
+        library
+            Who writes it.
+
+        """
         self._write(_MAGIC)
         self._write_record(Header(profile=profile, library=library))
 
     def attach(self, name: str, kind: str, data: bytes, create_ns: int) -> None:
-        """Write an attachment."""
+        """
+        Write an attachment.
+
+        Parameters
+        ----------
+        name
+            Of the attachment.
+        kind
+            Media type.
+        data
+            Its content.
+        create_ns
+            Wall time [ns].
+
+        """
         record = Attachment(
             create_time=create_ns, log_time=0, name=name, media_type=kind, data=data
         )
@@ -98,19 +127,61 @@ class McapFile:
         )  # fmt: skip
 
     def add_metadata(self, name: str, pairs: dict[str, str]) -> None:
-        """Write a metadata record."""
+        """
+        Write a metadata record.
+
+        Parameters
+        ----------
+        name
+            Of the record.
+        pairs
+            Text by key.
+
+        """
         at, length = self._write_record(Metadata(name=name, metadata=pairs))
         self._metadata.append(MetadataIndex(offset=at, length=length, name=name))
 
     def add_schema(self, name: str, text: bytes) -> int:
-        """Register a ``ros2msg`` schema; return its id."""
+        """
+        Register a ``ros2msg`` schema.
+
+        Parameters
+        ----------
+        name
+            Message type.
+        text
+            Its definition.
+
+        Returns
+        -------
+        int
+            Its id.
+
+        """
         schema = Schema(id=len(self._schemas) + 1, data=text, encoding='ros2msg', name=name)
         self._schemas.append(schema)
         schema.write(self._new)
         return len(self._schemas)
 
     def add_channel(self, topic: str, schema: int, pairs: dict[str, str]) -> int:
-        """Register a CDR channel; return its id."""
+        """
+        Register a CDR channel.
+
+        Parameters
+        ----------
+        topic
+            Full name.
+        schema
+            Id of its schema.
+        pairs
+            Metadata.
+
+        Returns
+        -------
+        int
+            Its id.
+
+        """
         number = len(self._channels) + 1
         channel = Channel(
             id=number, topic=topic, message_encoding='cdr', schema_id=schema, metadata=pairs
@@ -123,7 +194,15 @@ class McapFile:
     # ---- chunks ----------------------------------------------------------------------------
 
     def add(self, payload: bytes) -> None:
-        """Add packed messages to the open chunk."""
+        """
+        Add packed messages to the open chunk.
+
+        Parameters
+        ----------
+        payload
+            Message records one behind the other, as ``wire.head`` and data make them.
+
+        """
         if not self._content:
             head = self._new.end()
             self._content.append(head)

@@ -38,6 +38,16 @@ def open_log(path: str | Path) -> Log:
     """
     Open a log file, or the one log in a folder, and check every checksum in it.
 
+    Parameters
+    ----------
+    path
+        Log file, or a folder with one.
+
+    Returns
+    -------
+    Log
+        What is in it.
+
     Raises
     ------
     LogError

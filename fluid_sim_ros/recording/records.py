@@ -40,7 +40,15 @@ class Chunk:
 
 
 class Fields:
-    """Reads the fields of a record within its bounds."""
+    """
+    Reads the fields of a record within its bounds.
+
+    Parameters
+    ----------
+    data
+        The record, without its head.
+
+    """
 
     def __init__(self, data: bytes) -> None:
         self._data = data
@@ -52,7 +60,25 @@ class Fields:
         return len(self._data) - self._at
 
     def take(self, size: int) -> bytes:
-        """Return the next bytes, or raise BadRecordError where the record ends before."""
+        """
+        Return the next bytes.
+
+        Parameters
+        ----------
+        size
+            How many.
+
+        Returns
+        -------
+        bytes
+            The bytes.
+
+        Raises
+        ------
+        BadRecordError
+            Where the record ends before.
+
+        """
         if size > self.left:
             raise BadRecordError('its fields are longer than the record')
         self._at += size
@@ -63,7 +89,25 @@ class Fields:
         return int.from_bytes(self.take(2), 'little')
 
     def block(self, width: int = 4) -> bytes:
-        """Return bytes that stand behind their length, a number of ``width`` bytes."""
+        """
+        Return bytes that stand behind their length.
+
+        Parameters
+        ----------
+        width
+            Bytes of the length.
+
+        Returns
+        -------
+        bytes
+            The bytes.
+
+        Raises
+        ------
+        BadRecordError
+            Where the record ends before.
+
+        """
         return self.take(int.from_bytes(self.take(width), 'little'))
 
     def string(self) -> str:
@@ -75,7 +119,25 @@ class Fields:
 
 
 def read_attachment(record: bytes) -> tuple[str, bytes]:
-    """Return an attachment's name and content, its checksum verified."""
+    """
+    Return an attachment's name and content, its checksum verified.
+
+    Parameters
+    ----------
+    record
+        An attachment record, without its head.
+
+    Returns
+    -------
+    name, data
+        Name and content.
+
+    Raises
+    ------
+    BadRecordError
+        If a field or the checksum is wrong.
+
+    """
     fields = Fields(record)
     fields.take(16)
     name = fields.string()
@@ -87,7 +149,27 @@ def read_attachment(record: bytes) -> tuple[str, bytes]:
 
 
 def read_chunk_head(content: bytes, begin: int, after: int) -> Chunk:
-    """Return where the data of the chunk record between two places stands."""
+    """
+    Return where the data of a chunk record stands.
+
+    Parameters
+    ----------
+    content
+        Of the file.
+    begin, after
+        Where the record's fields begin, and where it ends.
+
+    Returns
+    -------
+    Chunk
+        The place of its data.
+
+    Raises
+    ------
+    BadRecordError
+        If the data would reach beyond the record.
+
+    """
     fields = Fields(content[begin : min(after, begin + 64)])
     fields.take(16)
     uncompressed_size = int.from_bytes(fields.take(8), 'little')
@@ -101,7 +183,27 @@ def read_chunk_head(content: bytes, begin: int, after: int) -> Chunk:
 
 
 def decompress(chunk: Chunk, data: bytes) -> bytes:
-    """Return a chunk's content, its checksum verified."""
+    """
+    Return a chunk's content, its checksum verified.
+
+    Parameters
+    ----------
+    chunk
+        Says how the data are compressed.
+    data
+        Compressed.
+
+    Returns
+    -------
+    bytes
+        Records, one behind the other.
+
+    Raises
+    ------
+    BadRecordError
+        If the data are damaged, or the compression is not known.
+
+    """
     content = data
     if chunk.compression == b'zstd':
         try:
@@ -119,7 +221,20 @@ def decompress(chunk: Chunk, data: bytes) -> bytes:
 
 
 def records(content: bytes) -> Iterator[tuple[int, int, int]]:
-    """Return (kind, begin, end) of the records in a chunk or a summary."""
+    """
+    Return (kind, begin, end) of the records in a chunk or a summary.
+
+    Parameters
+    ----------
+    content
+        Records, one behind the other.
+
+    Yields
+    ------
+    kind, begin, end
+        Kind of a record, and where its fields stand.
+
+    """
     at, end = 0, len(content)
     unpack, size = RECORD.unpack_from, RECORD.size
     while at + size <= end:

@@ -14,7 +14,20 @@ _INFINITE = {'sec': 9223372036, 'nsec': 854775807}
 
 
 def qos(topic: RecordedTopic) -> list[dict[str, Any]]:
-    """Return a topic's offered quality of service as rosbag2 (Jazzy) writes it."""
+    """
+    Return a topic's offered quality of service as rosbag2 (Jazzy) writes it.
+
+    Parameters
+    ----------
+    topic
+        The topic.
+
+    Returns
+    -------
+    list
+        One mapping, as rosbag2 has it.
+
+    """
     return [
         {
             'history': 'keep_last',
@@ -31,12 +44,40 @@ def qos(topic: RecordedTopic) -> list[dict[str, Any]]:
 
 
 def qos_text(topic: RecordedTopic) -> str:
-    """Return the quality of service as the text that channel metadata holds."""
+    """
+    Return the quality of service as the text that channel metadata holds.
+
+    Parameters
+    ----------
+    topic
+        The topic.
+
+    Returns
+    -------
+    str
+        YAML.
+
+    """
     return yaml.dump(qos(topic), sort_keys=False, Dumper=_Plain)
 
 
 def recorded_topic(name: str, kind: str, channel: Mapping[str, str]) -> RecordedTopic:
-    """Return a topic with the quality of service that its channel's metadata tells, if it does."""
+    """
+    Return a topic with the quality of service that its channel's metadata tells, if it does.
+
+    Parameters
+    ----------
+    name, kind
+        Full name and message type.
+    channel
+        Metadata of the channel.
+
+    Returns
+    -------
+    RecordedTopic
+        The topic; with the default quality of service where the channel tells none.
+
+    """
     try:
         offered = yaml.safe_load(channel.get('offered_qos_profiles', ''))[0]
         reliable, durable = offered['reliability'], offered['durability']
@@ -63,7 +104,21 @@ def write_metadata(
     first_ns: int,
     last_ns: int,
 ) -> None:
-    """Write ``metadata.yaml`` beside an MCAP file, so that its folder is a bag."""
+    """
+    Write ``metadata.yaml`` beside an MCAP file, so that its folder is a bag.
+
+    Parameters
+    ----------
+    path
+        The MCAP file.
+    channels
+        ``topic``, ``type`` and ``metadata`` of each channel.
+    counts
+        Messages of each channel.
+    first_ns, last_ns
+        Simulated time of the first and last message [ns].
+
+    """
     start, duration = {'nanoseconds_since_epoch': first_ns}, {'nanoseconds': last_ns - first_ns}
     total = sum(counts)
     topics = [

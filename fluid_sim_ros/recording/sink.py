@@ -57,7 +57,15 @@ class RecordingSink:
         self.period = math.gcd(*(topic.period for topic in wanted)) or NEVER
 
     def write(self, simulation: Simulation) -> None:
-        """Record what is due at this step."""
+        """
+        Record what is due at this step.
+
+        Parameters
+        ----------
+        simulation
+            At the step that is recorded.
+
+        """
         tick = simulation.tick
         due = [(i, topic) for i, topic in self._topics if tick % topic.period == 0]
         self._states.look()
@@ -65,11 +73,29 @@ class RecordingSink:
         self.recorder.tick([message for message in messages if message[1]])
 
     def command(self, name: str, data: bytes) -> None:
-        """Record a command message before it is applied, by its relative topic name."""
+        """
+        Record a command message before it is applied.
+
+        Parameters
+        ----------
+        name
+            Relative topic name.
+        data
+            CDR bytes.
+
+        """
         self.recorder.command(self._commands[name], data)
 
     def event(self, **change: Any) -> None:
-        """Record a change that no command message made."""
+        """
+        Record a change that no command message made.
+
+        Parameters
+        ----------
+        change
+            Its fields, which JSON can hold.
+
+        """
         self.recorder.event(**change)
 
     def next_segment(self) -> None:

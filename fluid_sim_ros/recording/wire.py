@@ -23,5 +23,24 @@ FIXED = MESSAGE.size - RECORD_HEAD
 
 
 def head(topic: int, step: int, log_ns: int, publish_ns: int, size: int) -> bytes:
-    """Return what stands before ``size`` bytes of data; channels count from 1."""
+    """
+    Return what stands before the data of a message.
+
+    Parameters
+    ----------
+    topic
+        Place of the topic; channels count from 1.
+    step
+        Step count of the simulation.
+    log_ns, publish_ns
+        Simulated and wall time [ns].
+    size
+        Of the data [bytes].
+
+    Returns
+    -------
+    bytes
+        The head.
+
+    """
     return MESSAGE.pack(MESSAGE_KIND, FIXED + size, topic + 1, step, log_ns, publish_ns)

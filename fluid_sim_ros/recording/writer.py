@@ -28,7 +28,15 @@ _READ_SIZE = 1 << 20
 
 
 class LogFile:
-    """One MCAP file being written."""
+    """
+    One MCAP file being written.
+
+    Parameters
+    ----------
+    start
+        Content of the frame that begins a file.
+
+    """
 
     def __init__(self, start: dict[str, Any]) -> None:
         self._chunk_s: float = start['chunk_s']
@@ -65,7 +73,15 @@ class LogFile:
         return self._deadline if self._pending else None
 
     def add(self, payload: bytes) -> None:
-        """Add the messages of a frame."""
+        """
+        Add the messages of a frame.
+
+        Parameters
+        ----------
+        payload
+            Message records, one behind the other.
+
+        """
         if not self._pending:
             self._deadline = time.monotonic() + self._chunk_s
             self._pending = True
@@ -89,7 +105,15 @@ class LogFile:
         self._pending = False
 
     def finish(self) -> dict[str, Any]:
-        """End the file with its summary; return what it holds."""
+        """
+        End the file with its summary; return what it holds.
+
+        Returns
+        -------
+        dict
+            ``path``, number of ``messages``, and ``bytes`` of the file.
+
+        """
         self._file.finish()
         self._stream.flush()
         os.fsync(self._stream.fileno())
@@ -108,7 +132,20 @@ class LogFile:
 
 
 def frames(deadline: Any) -> Iterator[tuple[bytes, bytes]]:
-    """Return frames from standard input until it ends; an empty kind when the deadline passed."""
+    """
+    Return frames from standard input until it ends; an empty kind when the deadline passed.
+
+    Parameters
+    ----------
+    deadline
+        Returns the time at which to go on without a frame [s, monotonic], or None.
+
+    Yields
+    ------
+    kind, payload
+        Kind and content; both empty when the deadline has passed.
+
+    """
     buffer, begin, end = memoryview(bytearray(_READ_SIZE)), 0, 0  # what was read and not returned
     while True:
         due = deadline()

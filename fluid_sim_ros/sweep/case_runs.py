@@ -5,19 +5,23 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
-from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError
-from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.errors import DivergedError, FluidSimError
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.batch import BatchRuns
-from fluid_sim_ros.simulation.engine import Largest
 from fluid_sim_ros.simulation.plant import plant_of
 from fluid_sim_ros.step_clock import whole_steps
-from fluid_sim_ros.sweep.hold_controller import HoldController, hold_controller
+from fluid_sim_ros.sweep.compiled_run import (
+    COLUMNS,
+    MOTION,
+    CompiledRun,
+    Row,
+    columns,
+    row_begun,
+    start,
+)
+from fluid_sim_ros.sweep.hold_controller import hold_controller
 from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, Value
 
 #: Most runs of a portion; as many are lost, per worker, with a process that is killed.
@@ -27,34 +31,6 @@ _KEPT = 4
 #: Tries of a run that ends in an error that is none of ours.
 _TRIES = 2
 _UNEXPECTED = (RuntimeError, ArithmeticError, LookupError, ValueError, TypeError, MemoryError)
-#: Columns of each vehicle: its motion at the end, and the largest values (engine.Largest).
-COLUMNS = (
-    *(f'{axis}_m' for axis in 'xyz'), *(f'q{part}' for part in 'wxyz'),
-    *(f'v{axis}_m_s' for axis in 'xyz'), *(f'w{axis}_rad_s' for axis in 'xyz'),
-    'largest_speed_m_s', 'largest_tilt_rad', 'farthest_m',
-)  # fmt: skip
-#: The motion in an observation row.
-MOTION = slice(nat.POSITION.start, nat.ANGULAR_VELOCITY.stop)
-
-Row = dict[str, Any]
-
-
-@dataclasses.dataclass
-class CompiledRun:
-    """
-    A compiled simulation, its run in steps, and the controller in its loop.
-
-    ``columns`` are the names of what comes out, vehicle by vehicle; ``many`` flies undisturbed
-    runs together, None where they are disturbed.
-    """
-
-    simulation: Simulation
-    steps: int
-    period: int
-    controller: HoldController | None
-    largest: Largest
-    columns: tuple[str, ...]
-    many: BatchRuns | None
 
 
 class CaseRunner:
@@ -79,6 +55,11 @@ class CaseRunner:
         """
         Prepare the first case; return its steps.
 
+        Returns
+        -------
+        int
+            Steps of a run.
+
         Raises
         ------
         FluidSimError
@@ -94,9 +75,20 @@ class CaseRunner:
 
     def rows(self, begin: int, end: int) -> list[Row]:
         """
-        Return the rows of the runs from ``begin`` up to ``end``.
+        Return the rows of some runs.
 
         Runs that nothing disturbs on their way (no controller, event or gait) are flown together.
+
+        Parameters
+        ----------
+        begin, end
+            From the first up to the second.
+
+        Returns
+        -------
+        list
+            A row per run, in order.
+
         """
         rows: list[Row] = []
         batch = _Batch()
@@ -129,6 +121,17 @@ class CaseRunner:
 
         Whatever goes wrong stays in its row: ``status`` is ``ok``, ``diverged`` or ``failed``, and
         ``message`` says why.
+
+        Parameters
+        ----------
+        index
+            Of the case.
+
+        Returns
+        -------
+        dict
+            The row.
+
         """
         values = self.cases[index]
         row = begin = row_begun(index, values)
@@ -165,7 +168,25 @@ class CaseRunner:
         return row if holds is None else row | holds.columns()
 
     def prepare(self, values: Mapping[str, Value]) -> CompiledRun:
-        """Return the simulation of a case, compiled at most once for equal settings."""
+        """
+        Return the simulation of a case, compiled at most once for equal settings.
+
+        Parameters
+        ----------
+        values
+            Of the case.
+
+        Returns
+        -------
+        CompiledRun
+            The simulation and what belongs to it.
+
+        Raises
+        ------
+        FluidSimError
+            If the case asks for something that the scene does not have.
+
+        """
         masses = tuple((k, float(v)) for k, v in values.items() if k.startswith('mass.'))
         settings = self._sweep.settings(values)
         key = (settings, masses)
@@ -193,38 +214,6 @@ class CaseRunner:
         holds = hold_controller(sweep.hold, plant, vehicle.name, simulation)
         largest = simulation.largest()
         return CompiledRun(simulation, steps, holds.period, holds, largest, names, None)
-
-
-_FLOWS = ('wind', 'current')
-
-
-def start(simulation: Simulation, values: Mapping[str, Value]) -> None:
-    """Go to the start of a case, with what it changes at run time."""
-    simulation.reset()
-    flows: dict[str, list[float]] = {}
-    for key, value in values.items():
-        kind, _, name = key.partition('.')
-        if kind in _FLOWS:
-            flows.setdefault(kind, [0.0, 0.0, 0.0])['xyz'.index(name)] = float(value)
-        elif kind == 'thrust':
-            vehicle = simulation.vehicle(name)
-            if not vehicle.thrusters:
-                raise ConfigError(f"vary: '{key}': the vehicle has no thrusters")
-            simulation.set_thrust(name, float(value) * vehicle.thrust_range[:, 1])
-    for kind, velocity in flows.items():
-        set_flow = simulation.set_wind if kind == 'wind' else simulation.set_current
-        set_flow(velocity)
-
-
-def row_begun(index: int, values: Mapping[str, Value]) -> Row:
-    """Return the row of a run as it begins."""
-    return {'run': index, **values, 'status': 'ok', 'message': '', 'time_s': 0.0}
-
-
-def columns(ready: CompiledRun, motion: Array, largest: Array) -> Row:
-    """Return what came out, from the vehicles' motion and its largest values."""
-    out = np.concatenate((motion, largest), axis=1).ravel().tolist()
-    return dict(zip(ready.columns, out, strict=True))
 
 
 class _Batch:

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from fluid_sim_ros.sweep.case_runs import COLUMNS, CaseRunner
+from fluid_sim_ros.sweep.case_runs import CaseRunner
+from fluid_sim_ros.sweep.compiled_run import COLUMNS
 
 #: Runs that are flown again.
 _CHECKED = 8

@@ -27,6 +27,19 @@ class HoldController:
     """
     The controller of one vehicle; made by ``hold_controller``.
 
+    Parameters
+    ----------
+    hold
+        What it holds.
+    vehicle
+        Name of the vehicle.
+    row
+        Its row in an observation.
+    period
+        Steps between two answers.
+    law
+        Makes the law of some gains.
+
     Attributes
     ----------
     period
@@ -46,14 +59,35 @@ class HoldController:
         self._errors: list[float] = []
 
     def begin(self, values: Mapping[str, Value]) -> None:
-        """Begin a run with the gains of its case."""
+        """
+        Begin a run with the gains of its case.
+
+        Parameters
+        ----------
+        values
+            Of the case; those of gains are taken.
+
+        Raises
+        ------
+        ConfigError
+            For a gain that the law does not have.
+
+        """
         kind = _GAINS[self._hold.law]
         varied = {k.removeprefix('gain.'): v for k, v in values.items() if k.startswith('gain.')}
         self._answer = self._law(_gains(kind, {**self._hold.gains, **varied}))
         self._errors = []
 
     def answer(self, simulation: Simulation) -> None:
-        """Answer the present state with thrusts."""
+        """
+        Answer the present state with thrusts.
+
+        Parameters
+        ----------
+        simulation
+            Is observed, and gets the thrusts [N].
+
+        """
         row = simulation.observe(forces=False)[self._row]
         position = row[nat.POSITION]
         self._errors.append(math.dist(position, self._target))
@@ -91,6 +125,11 @@ def hold_controller(
         vehicle's name.
     simulation
         What it will steer; a mass that varies is not known to the controller.
+
+    Returns
+    -------
+    HoldController
+        The controller.
 
     Raises
     ------

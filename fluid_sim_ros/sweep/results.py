@@ -10,7 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.sweep.case_runs import Row
+from fluid_sim_ros.sweep.compiled_run import Row
 from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
 #: Runs from the first up to the second.
@@ -63,6 +63,12 @@ class Results:
         Take up what an earlier try left, and return its portions, in order.
 
         A part that is not whole, or overlaps another one, is deleted.
+
+        Returns
+        -------
+        list
+            Portions, in order.
+
         """
         kept: list[Portion] = []
         for path in self._parts.glob('*.unfinished'):
@@ -78,14 +84,30 @@ class Results:
         return kept
 
     def add(self, rows: Sequence[Row]) -> None:
-        """Keep a portion, its rows in the order of their runs."""
+        """
+        Keep a portion, its rows in the order of their runs.
+
+        Parameters
+        ----------
+        rows
+            Consecutive runs.
+
+        """
         begin = int(rows[0]['run'])
         table = as_table(rows)
         _write(table, self._parts / f'{begin:09d}.parquet')
         self._tables[begin] = table
 
     def finish(self) -> pa.Table:
-        """Write the table of all portions and return it."""
+        """
+        Write the table of all portions and return it.
+
+        Returns
+        -------
+        pyarrow.Table
+            All rows by run.
+
+        """
         tables = [self._tables[begin] for begin in sorted(self._tables)]
         # a run that failed has no state: the columns are those of all portions together
         table = pa.concat_tables(tables, promote_options='permissive')
@@ -94,13 +116,41 @@ class Results:
 
 
 def as_table(rows: Sequence[Row]) -> pa.Table:
-    """Return rows as a table with the columns of all of them."""
+    """
+    Return rows as a table with the columns of all of them.
+
+    Parameters
+    ----------
+    rows
+        Any rows; what one lacks is null.
+
+    Returns
+    -------
+    pyarrow.Table
+        The table.
+
+    """
     names = dict.fromkeys(name for row in rows for name in row)
     return pa.table({name: [row.get(name) for row in rows] for name in names})
 
 
 def gaps(kept: Iterable[Portion], total: int) -> list[Portion]:
-    """Return what of ``total`` runs is not there yet, in order."""
+    """
+    Return what of a sweep's runs is not there yet.
+
+    Parameters
+    ----------
+    kept
+        Portions that are there, in order.
+    total
+        Number of runs.
+
+    Returns
+    -------
+    list
+        Portions, in order.
+
+    """
     found, at = [], 0
     for begin, end in (*kept, (total, total)):
         if begin > at:
@@ -125,7 +175,21 @@ def _write(table: pa.Table, path: Path) -> None:
 
 
 def statistics(table: pa.Table) -> dict[str, Any]:
-    """Return how the runs ended, and minimum, median and maximum of what came out."""
+    """
+    Return how the runs ended, and minimum, median and maximum of what came out.
+
+    Parameters
+    ----------
+    table
+        Of a sweep.
+
+    Returns
+    -------
+    dict
+        ``status``: how many runs by their end; ``columns``: ``min``, ``median`` and ``max`` by
+        name.
+
+    """
     ends = table.column('status').value_counts().to_pylist()
     numbers = {}
     for name in table.column_names:

@@ -87,7 +87,20 @@ class Variation(Strict):
         return []
 
     def draw(self, random: np.random.Generator) -> float:
-        """Return a drawn value."""
+        """
+        Return a drawn value.
+
+        Parameters
+        ----------
+        random
+            Source of the draws.
+
+        Returns
+        -------
+        float
+            The value.
+
+        """
         if self.uniform is not None:
             return float(random.uniform(*self.uniform))
         if self.loguniform is not None:
@@ -212,6 +225,16 @@ def read_sweep(path: Path) -> SweepFile:
     """
     Read a sweep's file; a scene path in it becomes absolute.
 
+    Parameters
+    ----------
+    path
+        YAML file.
+
+    Returns
+    -------
+    SweepFile
+        The sweep.
+
     Raises
     ------
     ConfigError
@@ -228,5 +251,18 @@ def read_sweep(path: Path) -> SweepFile:
 
 
 def as_plain(sweep: SweepFile) -> dict[str, Any]:
-    """Return a sweep as JSON can hold it."""
+    """
+    Return a sweep as JSON can hold it.
+
+    Parameters
+    ----------
+    sweep
+        The sweep.
+
+    Returns
+    -------
+    dict
+        Its keys, without those that are not given.
+
+    """
     return sweep.model_dump(mode='json', exclude_none=True)

@@ -142,7 +142,15 @@ class WarpWorlds:
                     getattr(self._data, name).assign(values.astype(np.float32))
 
     def step(self, count: int) -> None:
-        """Take steps in all worlds."""
+        """
+        Take steps in all worlds.
+
+        Parameters
+        ----------
+        count
+            Number of steps.
+
+        """
         with self._device.scope():
             for _ in range(count):
                 if self._graph is not None:
@@ -169,7 +177,20 @@ class WarpWorlds:
 
 
 def state_fields(model: mujoco.MjModel) -> tuple[str, ...]:
-    """Return the fields of mjData that make the start of a world."""
+    """
+    Return the fields of mjData that make the start of a world.
+
+    Parameters
+    ----------
+    model
+        The model.
+
+    Returns
+    -------
+    tuple
+        Names.
+
+    """
     return ('qpos', 'qvel', 'act', 'ctrl') if model.na else ('qpos', 'qvel', 'ctrl')
 
 

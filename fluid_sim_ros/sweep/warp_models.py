@@ -22,6 +22,17 @@ def check_stock(sweep: SweepFile, simulation: Simulation, steps: int, device: st
     """
     Refuse a sweep that is more than MuJoCo's own forces under constant commands.
 
+    Parameters
+    ----------
+    sweep
+        What is asked for.
+    simulation
+        Of its first case.
+    steps
+        Of a run.
+    device
+        Name of the device.
+
     Raises
     ------
     ConfigError
@@ -60,6 +71,18 @@ def with_masses(model: mujoco.MjModel, factors: Mapping[str, float]) -> mujoco.M
 
     As ``mass_factors.scale_masses`` and a compilation would make it.
 
+    Parameters
+    ----------
+    model
+        The model.
+    factors
+        Factor [-] by name of a body.
+
+    Returns
+    -------
+    mujoco.MjModel
+        The copy.
+
     Raises
     ------
     ConfigError
@@ -80,7 +103,24 @@ def with_masses(model: mujoco.MjModel, factors: Mapping[str, float]) -> mujoco.M
 def fields_of_masses(
     model: mujoco.MjModel, bodies: Iterable[str], batched: Sequence[str]
 ) -> list[str]:
-    """Return which of the fields that may differ from world to world follow from these masses."""
+    """
+    Return which of the fields that may differ from world to world follow from these masses.
+
+    Parameters
+    ----------
+    model
+        The model.
+    bodies
+        Names of the bodies whose masses vary.
+    batched
+        Fields that may differ from world to world.
+
+    Returns
+    -------
+    list
+        Names of fields.
+
+    """
     probe = with_masses(model, dict.fromkeys(bodies, _PROBE))
     return [
         name for name in batched
@@ -89,7 +129,20 @@ def fields_of_masses(
 
 
 def batched_fields(model_type: Any) -> list[str]:
-    """Return the fields of a mujoco_warp.Model that may differ from world to world."""
+    """
+    Return the fields of a mujoco_warp.Model that may differ from world to world.
+
+    Parameters
+    ----------
+    model_type
+        The class ``mujoco_warp.Model``.
+
+    Returns
+    -------
+    list
+        Names of fields.
+
+    """
     shapes = {f.name: getattr(f.type, 'shape', ()) for f in dataclasses.fields(model_type)}
     return [name for name, shape in shapes.items() if shape and shape[0] == '*']
 

@@ -9,14 +9,8 @@ from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.step_clock import StepClock
-from fluid_sim_ros.sweep.case_runs import (
-    CaseRunner,
-    CompiledRun,
-    Row,
-    columns,
-    row_begun,
-    start,
-)
+from fluid_sim_ros.sweep.case_runs import CaseRunner
+from fluid_sim_ros.sweep.compiled_run import CompiledRun, Row, columns, row_begun, start
 from fluid_sim_ros.sweep.results import Portion
 from fluid_sim_ros.sweep.sweep_file import SweepFile, Value
 from fluid_sim_ros.sweep.warp_device import WarpDevice, WarpWorlds, state_fields
@@ -78,13 +72,39 @@ class WarpRuns:
         self._prepare(ready, 1)
 
     def portions(self, left: Sequence[Portion]) -> Iterator[list[Row]]:
-        """Fly what is left, and yield the rows of each portion."""
+        """
+        Fly what is left, and yield the rows of each portion.
+
+        Parameters
+        ----------
+        left
+            Portions of runs.
+
+        Yields
+        ------
+        rows
+            The rows of at most ``most`` runs.
+
+        """
         for begin, end in left:
             for first in range(begin, end, self.most):
                 yield self.rows(first, min(first + self.most, end))
 
     def rows(self, begin: int, end: int) -> list[Row]:
-        """Return the rows of the runs from ``begin`` up to ``end``, at most ``most``."""
+        """
+        Return the rows of some runs.
+
+        Parameters
+        ----------
+        begin, end
+            From the first up to the second, at most ``most``.
+
+        Returns
+        -------
+        list
+            A row per run, in order.
+
+        """
         groups: dict[RunSettings, list[int]] = {}
         for index in range(begin, end):
             values = self._runner.cases[index]

@@ -8,7 +8,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
-from fluid_sim_ros.sweep.case_runs import CaseRunner, Row
+from fluid_sim_ros.sweep.case_runs import CaseRunner
+from fluid_sim_ros.sweep.compiled_run import Row
 from fluid_sim_ros.sweep.results import Portion
 from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
@@ -23,6 +24,21 @@ def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> I
     ``mujoco.rollout`` and ``mujoco.batch`` would not do for all: they know neither the schedule
     and gaits of a scene nor a controller nor the watch after each step. For runs that need none of
     this ``simulation.batch.BatchRuns`` does the same, and leaves little to gain.
+
+    Parameters
+    ----------
+    sweep
+        What is run.
+    portions
+        Runs that are left.
+    workers
+        Number of threads.
+
+    Yields
+    ------
+    rows
+        The rows of each portion, as they come.
+
     """
     own = threading.local()
 
@@ -58,6 +74,22 @@ def on_ray(
 ) -> Iterator[list[Row]]:
     """
     Run portions on a Ray cluster, which repeats those of a worker that dies.
+
+    Parameters
+    ----------
+    sweep
+        What is run.
+    portions
+        Runs that are left.
+    workers
+        Number of processes.
+    address
+        ``local``, or the address of a cluster.
+
+    Yields
+    ------
+    rows
+        The rows of each portion, as they come.
 
     Raises
     ------

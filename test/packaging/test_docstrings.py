@@ -9,8 +9,8 @@ PACKAGE = ROOT / 'fluid_sim_ros'
 #: What is not yet complete.
 LEFT = {
     'cli', 'control', 'demo', 'loop', 'messages', 'new_vehicle',
-    'recording', 'ros', 'scene', 'schema', 'sensors',
-    'simulation', 'sweep',
+    'ros', 'scene', 'schema', 'sensors',
+    'simulation',
 }  # fmt: skip
 
 

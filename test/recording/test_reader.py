@@ -215,7 +215,7 @@ FLIGHT = textwrap.dedent("""
     from fluid_sim_ros.loop.runner import NoSource, Runner
     simulation = Simulation('sphere')
     sink = RecordingSink(simulation, Path(sys.argv[1]))
-    print(sink.recorder._process.pid, flush=True)
+    print(sink.recorder.writer.pid, flush=True)
     class Clock:
         period = sink.period
         def write(self, simulation):

@@ -1,7 +1,9 @@
 """What is handed over is what stands in the file, read by the reader of the mcap project."""
 
 import json
+import os
 import resource
+import signal
 import subprocess
 import sys
 import textwrap
@@ -122,11 +124,11 @@ def test_a_full_queue_blocks_or_drops_and_says_so(tmp_path, policy):
     path = tmp_path / 'a.mcap'
     options = RecorderOptions(path, policy=policy, queue_mib=0.25)
     recorder = Recorder(simulation, [TOPIC], options)
-    recorder._process.send_signal(19)  # SIGSTOP: the writer stands still
+    os.kill(recorder.writer.pid, signal.SIGSTOP)  # SIGSTOP: the writer stands still
     fill(recorder, simulation, 8, 1 << 18) if policy == 'drop' else None
-    recorder._process.send_signal(18)
+    os.kill(recorder.writer.pid, signal.SIGCONT)
     fill(recorder, simulation, 40, 1 << 18)
-    while recorder.dropped and recorder._queued:  # the writer catches up
+    while recorder.dropped and recorder.writer.queued:  # the writer catches up
         recorder.flush(now=True)
     recorder.tick([(0, b'last')])
     recorder.close()

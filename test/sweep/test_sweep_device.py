@@ -14,12 +14,13 @@ from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
-from fluid_sim_ros.sweep.case_runs import COLUMNS, CaseRunner
+from fluid_sim_ros.sweep.case_runs import CaseRunner
 from fluid_sim_ros.sweep.compare import against_cpu
+from fluid_sim_ros.sweep.compiled_run import COLUMNS
 from fluid_sim_ros.sweep.results import as_table
 from fluid_sim_ros.sweep.run_sweep import run_sweep
-from fluid_sim_ros.sweep.sweep_file import SweepFile
 from fluid_sim_ros.sweep.warp_models import motion_of, with_masses
+from test.support.sweeps import sweep_of
 
 #: Kernels are compiled for a minute in a fresh cache, so make test goes without them.
 NO_WARP = pytest.mark.skipif(util.find_spec('mujoco_warp') is None, reason='no mujoco_warp here')
@@ -27,11 +28,6 @@ NO_WARP = pytest.mark.skipif(util.find_spec('mujoco_warp') is None, reason='no m
 
 def with_warp(function):
     return pytest.mark.full(pytest.mark.timeout(600)(NO_WARP(function)))
-
-
-def sweep_of(**keys) -> SweepFile:
-    keys = {'scene': 'sphere', 'duration': 0.2, 'vary': {'seed': {'values': [0]}}, **keys}
-    return SweepFile.model_validate(keys)
 
 
 def fly_on_cpu(tmp_path, **keys):

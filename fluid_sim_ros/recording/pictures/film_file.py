@@ -15,14 +15,39 @@ class FilmFile(Protocol):
     """A file that takes pictures."""
 
     def add(self, picture: Picture) -> None:
-        """Take the next picture."""
+        """
+        Take the next picture.
+
+        Parameters
+        ----------
+        picture
+            Red, green and blue, shape (height, width, 3).
+
+        """
 
     def close(self) -> None:
         """End the file."""
 
 
 def film_file(out: Path, width: int, height: int, rate: float) -> FilmFile:
-    """Return the file of a film: size [pixels], pictures per second; its kind by its ending."""
+    """
+    Return the file of a film, by its ending.
+
+    Parameters
+    ----------
+    out
+        File to write: ``.mp4``, ``.gif`` or ``.png``.
+    width, height
+        Size of a picture [pixels].
+    rate
+        Pictures per second.
+
+    Returns
+    -------
+    FilmFile
+        Takes the pictures.
+
+    """
     return _Video(out, width, height, rate) if out.suffix == '.mp4' else _Images(out, rate)
 
 

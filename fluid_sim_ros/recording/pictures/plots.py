@@ -28,7 +28,24 @@ _NOTABLE = 1e-6
 
 
 def overview(track: Track, tracks: Tracks, path: Path) -> Path:
-    """Draw path, position, attitude, wrench per term, commands and speed; return the file."""
+    """
+    Draw path, position, attitude, wrench per term, commands and speed.
+
+    Parameters
+    ----------
+    track
+        Vehicle to draw.
+    tracks
+        The log, for its real-time factor.
+    path
+        PNG file to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     with mpl.rc_context(_STYLE):
         figure = plt.figure(figsize=(12, 9), layout='constrained')
         grid: Any = figure.add_gridspec(3, 3)
@@ -51,7 +68,24 @@ def overview(track: Track, tracks: Tracks, path: Path) -> Path:
 
 
 def both_flights(recorded: Track, changed: Track, change: str, path: Path) -> Path:
-    """Draw a recorded flight and the same one with a change; return the file."""
+    """
+    Draw a recorded flight and the same one with a change.
+
+    Parameters
+    ----------
+    recorded, changed
+        The two flights of one vehicle.
+    change
+        What was changed, in words.
+    path
+        PNG file to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     with mpl.rc_context(_STYLE):
         figure = plt.figure(figsize=(12, 7), layout='constrained')
         grid: Any = figure.add_gridspec(3, 3)

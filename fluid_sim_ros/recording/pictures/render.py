@@ -62,7 +62,7 @@ class FilmOptions:
 
 def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float], None]) -> int:
     """
-    Render a log to .mp4, .gif, or its last picture to .png; return the number of pictures.
+    Render a log to .mp4, .gif, or its last picture to .png.
 
     Parameters
     ----------
@@ -70,6 +70,11 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
         What, where to, and how.
     progress
         Called with the share that is done.
+
+    Returns
+    -------
+    int
+        Number of pictures.
 
     Raises
     ------

@@ -21,7 +21,24 @@ _TIME = 'simulated time [s]'
 
 
 def write_report(tracks: Tracks, about: Sequence[tuple[str, str]], path: Path) -> Path:
-    """Write the report; ``about`` is what stands above the plots. Return the file."""
+    """
+    Write the report.
+
+    Parameters
+    ----------
+    tracks
+        What is drawn.
+    about
+        Rows (key, text) that stand above the plots.
+    path
+        HTML file to write.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    """
     title = f'{path.stem}: {", ".join(track.name for track in tracks.vehicles)}'
     content = {
         'about': [list(row) for row in about],

@@ -73,7 +73,26 @@ class Tracks:
 
 
 def track_of(name: str, times: Array, definition: str, messages: Sequence[bytes]) -> Track:
-    """Return a track from odometry messages."""
+    """
+    Return a track from odometry messages.
+
+    Parameters
+    ----------
+    name
+        Of the vehicle.
+    times
+        Simulated times of the messages [s], shape (n,).
+    definition
+        Text of nav_msgs/Odometry.
+    messages
+        CDR bytes of the messages.
+
+    Returns
+    -------
+    Track
+        The vehicle's motion, without wrenches and commands.
+
+    """
     table = columns(definition, messages)
 
     def pick(prefix: str, parts: str) -> Array:
@@ -88,6 +107,16 @@ def track_of(name: str, times: Array, definition: str, messages: Sequence[bytes]
 def read_tracks(log: Log) -> Tracks:
     """
     Return what a log says of its vehicles.
+
+    Parameters
+    ----------
+    log
+        The log.
+
+    Returns
+    -------
+    Tracks
+        All vehicles with odometry.
 
     Raises
     ------

@@ -15,9 +15,20 @@ _CORNERS = (((0, 0), (1, 0), (0, 1)), ((1, 1), (0, 1), (1, 0)))
 
 def surface_heights(model: mujoco.MjModel, data: mujoco.MjData, points: Array) -> Array | None:
     """
-    Return the heights of the waves over points [m], shape (n,), at the data's time.
+    Return the heights of the waves over points, at the data's time.
 
-    None for a model whose surface has no waves. Points: world x y, shape (n, 2).
+    Parameters
+    ----------
+    model, data
+        A simulation of it.
+    points
+        x and y in the world [m], shape (n, 2).
+
+    Returns
+    -------
+    Array or None
+        [m], shape (n,); None for a model whose surface has no waves.
+
     """
     points = np.ascontiguousarray(points, dtype=np.float64)
     heights = np.empty(len(points))

@@ -65,6 +65,16 @@ def parse_changes(pairs: Sequence[str]) -> dict[str, Any]:
     """
     Read ``KEY=VALUE`` texts.
 
+    Parameters
+    ----------
+    pairs
+        Texts such as ``timestep=0.001`` or ``wind=1,0,0``.
+
+    Returns
+    -------
+    dict
+        Value by key: a float [s], a text, three floats [m/s], or an int.
+
     Raises
     ------
     ConfigError
@@ -106,6 +116,11 @@ def resimulate(
         What shall be otherwise (see ``CHANGES``): then nothing is compared, only kept.
     keep
         Endings of the topics whose messages the result shall hold.
+
+    Returns
+    -------
+    Resimulation
+        What came of it.
 
     Raises
     ------

@@ -17,7 +17,22 @@ _ODOMETRY = '/odom'
 
 def compare_flights(log: Log, changes: Sequence[str], out: Path) -> dict[str, Any]:
     """
-    Fly a log with a change, draw both flights, return how far apart they are.
+    Fly a log with a change, and draw both flights.
+
+    Parameters
+    ----------
+    log
+        The log.
+    changes
+        Texts ``KEY=VALUE``; see ``parse_changes``.
+    out
+        PNG file to write; a number is added for each further vehicle.
+
+    Returns
+    -------
+    dict
+        How far each vehicle is from its recorded flight [m], and when [s]; the plots; notes for
+        the reader.
 
     Raises
     ------
