@@ -24,8 +24,9 @@ from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
 from benchmarks.common import RESULTS, write
-from fluid_sim_ros.control.multirotor import MultirotorController
-from fluid_sim_ros.control.underwater import UnderwaterController
+from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController
 from fluid_sim_ros.simulation.plant import plant_of
 
 RESULT = RESULTS / 'controller_latency.json'
@@ -108,8 +109,12 @@ def law_steps(rounds: int) -> dict[str, float]:
     rov = UnderwaterController(plant_of('rov', '')[0])
     pose, still = ((0.1, 0.2, 1.4), (1.0, 0.01, 0.02, 0.03)), (0.0, 0.0, 0.0)
     laws = {
-        'MultirotorController': lambda t: quad.step(t, *pose, still, still, (0, 0, 1.5), 0.1),
-        'UnderwaterController': lambda t: rov.step(t, *pose, still, still, -1.5, 0.1),
+        'MultirotorController': lambda t: quad.step(
+            State(t, *pose, still, still), PoseTarget((0, 0, 1.5), 0.1)
+        ),
+        'UnderwaterController': lambda t: rov.step(
+            State(t, *pose, still, still), DepthTarget(-1.5, 0.1)
+        ),
     }
     result = {}
     for name, law in laws.items():

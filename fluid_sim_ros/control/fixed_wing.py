@@ -10,6 +10,7 @@ from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.law import ControlLaw, clamp, within
 from fluid_sim_ros.control.plant import Plant
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 
 _G = 9.81  # [m/s^2]
@@ -62,6 +63,30 @@ class FixedWingCommand(NamedTuple):
     aileron: float
     elevator: float
     rudder: float
+
+
+class FlightTarget(NamedTuple):
+    """
+    What an aircraft holds.
+
+    Attributes
+    ----------
+    altitude
+        [m] above the world's z = 0.
+    heading
+        [rad], counter-clockwise from east.
+    airspeed
+        [m/s].
+    line_w
+        A point [m] on a line over ground to follow, whose direction is ``heading``; None: only the
+        heading.
+
+    """
+
+    altitude: float
+    heading: float
+    airspeed: float
+    line_w: Sequence[float] | None = None
 
 
 class FixedWingController(ControlLaw):
@@ -120,43 +145,29 @@ class FixedWingController(ControlLaw):
         self._rates = Integral(gains.rate_integral, max_deflection, 2)
         super().__init__(self._energy, self._balance, self._rates)
 
-    def step(
-        self,
-        time: float,
-        position_w: Sequence[float],
-        quat_wb_wxyz: Sequence[float],
-        velocity_b: Sequence[float],
-        omega_b: Sequence[float],
-        wind_w: Sequence[float],
-        altitude: float,
-        heading: float,
-        airspeed: float,
-        *,
-        line_w: Sequence[float] | None = None,
-    ) -> FixedWingCommand:
+    def step(self, state: State, target: FlightTarget) -> FixedWingCommand:
         """
         Return the commands that answer a state.
 
         Parameters
         ----------
-        time
-            Stamp of the state [s].
-        position_w, quat_wb_wxyz
-            Pose: position [m], world axes; attitude, body to world.
-        velocity_b, omega_b
-            Twist over ground in body axes [m/s], [rad/s].
-        wind_w
-            Velocity of the air [m/s], world axes.
-        altitude, heading, airspeed
-            To hold: [m] above z = 0; [rad], counter-clockwise from east; [m/s].
-        line_w
-            A point [m] on the line over ground to follow, whose direction is ``heading``.
+        state
+            Of the vehicle, with the velocity of the air as its medium's.
+        target
+            What to hold.
+
+        Returns
+        -------
+        FixedWingCommand
+            Thrust [N] and deflections [rad].
 
         """
-        self._advance(time)
-        r_wb = rot.from_quaternion(quat_wb_wxyz)
-        velocity_w = rot.to_world(r_wb, velocity_b)
-        speed = max(math.dist(velocity_w, wind_w), 0.5 * self.gains.min_airspeed)
+        self._advance(state.time)
+        altitude, heading, airspeed, line_w = target
+        position_w, omega_b = state.position_w, state.omega_b
+        r_wb = rot.from_quaternion(state.quat_wb_wxyz)
+        velocity_w = rot.to_world(r_wb, state.velocity_b)
+        speed = max(math.dist(velocity_w, state.medium_w), 0.5 * self.gains.min_airspeed)
         roll = rot.roll_of(r_wb)
 
         error = rot.wrap(heading - rot.yaw_of(r_wb))

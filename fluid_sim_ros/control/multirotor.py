@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
@@ -11,6 +12,7 @@ from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.law import ControlLaw, clamp, within
 from fluid_sim_ros.control.plant import Plant
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 
 #: Roll and pitch before thrust: a vehicle that cannot tilt cannot be saved by more thrust; the
@@ -47,6 +49,23 @@ class MultirotorGains(Gains):
         super().__post_init__()
         if self.thrust_margin >= 0.5:
             raise ConfigError(f"gain 'thrust_margin': {self.thrust_margin}; must be below 0.5")
+
+
+class PoseTarget(NamedTuple):
+    """
+    A place to hold.
+
+    Attributes
+    ----------
+    position_w
+        [m], world axes, shape (3,).
+    yaw
+        Heading [rad], counter-clockwise from east.
+
+    """
+
+    position_w: Sequence[float]
+    yaw: float = 0.0
 
 
 class MultirotorController(ControlLaw):
@@ -90,47 +109,35 @@ class MultirotorController(ControlLaw):
         ax, ay, az = self._integral.value
         return (ax, ay, az)
 
-    def step(
-        self,
-        time: float,
-        position_w: Sequence[float],
-        quat_wb_wxyz: Sequence[float],
-        velocity_b: Sequence[float],
-        omega_b: Sequence[float],
-        target_w: Sequence[float],
-        yaw: float,
-    ) -> list[float]:
+    def step(self, state: State, target: PoseTarget) -> list[float]:
         """
         Return the thrusts that answer a state.
 
         Parameters
         ----------
-        time
-            Stamp of the state [s].
-        position_w, quat_wb_wxyz
-            Pose: position [m], world axes; attitude, body to world.
-        velocity_b, omega_b
-            Twist in body axes [m/s], [rad/s].
-        target_w, yaw
-            Position [m] to hold, world axes, and heading [rad].
+        state
+            Of the vehicle.
+        target
+            What to hold.
 
         Returns
         -------
-        Thrusts [N], one per thruster.
+        list
+            Thrusts [N], one per thruster.
 
         """
-        dt = self._advance(time)
-        r_wb = rot.from_quaternion(quat_wb_wxyz)
-        velocity_w = rot.to_world(r_wb, velocity_b)
+        dt = self._advance(state.time)
+        r_wb = rot.from_quaternion(state.quat_wb_wxyz)
+        velocity_w = rot.to_world(r_wb, state.velocity_b)
         if self.restarted:
             self._across.restart(velocity_w[0], velocity_w[1])
             self._upward.restart(velocity_w[2], 0.0)
-        error = self._speed_error(position_w, velocity_w, target_w, dt)
+        error = self._speed_error(state.position_w, velocity_w, target.position_w, dt)
         force_w, limited = self._force(error)
         thrust = rot.to_body(r_wb, force_w)[2]
         bounded = clamp(thrust, self._lowest, self._highest)
 
-        torque_b = self._torque(r_wb, omega_b, force_w, yaw)
+        torque_b = self._torque(r_wb, state.omega_b, force_w, target.yaw)
         thrusts = self.allocator.allocate((0.0, 0.0, bounded, *torque_b))
         self._integral.keep(*error, limited=limited or bounded != thrust)
         return thrusts

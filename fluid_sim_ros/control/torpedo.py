@@ -1,14 +1,15 @@
 """Depth, heading and speed hold of a torpedo: one propeller, a rudder and stern planes."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.law import ControlLaw, clamp, within
 from fluid_sim_ros.control.plant import Plant
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 
 
@@ -45,6 +46,26 @@ class TorpedoGains(Gains):
         0.7, 'm/s', 'speed below which the fins are taken to be no weaker, so that they do not go '
         'to their limits at rest', positive=True
     )  # fmt: skip
+
+
+class CruiseTarget(NamedTuple):
+    """
+    What a torpedo holds.
+
+    Attributes
+    ----------
+    depth
+        [m], positive below the world's z = 0.
+    heading
+        [rad], counter-clockwise from east.
+    speed
+        Forward speed over ground [m/s].
+
+    """
+
+    depth: float
+    heading: float
+    speed: float
 
 
 class TorpedoController(ControlLaw):
@@ -97,50 +118,34 @@ class TorpedoController(ControlLaw):
         self._drag = Integral(gains.speed_integral, self._high / plant.mass, 1)
         super().__init__(self._trim, self._planes, self._rudder, self._drag)
 
-    def step(
-        self,
-        time: float,
-        position_w: Sequence[float],
-        quat_wb_wxyz: Sequence[float],
-        velocity_b: Sequence[float],
-        omega_b: Sequence[float],
-        depth: float,
-        heading: float,
-        speed: float,
-    ) -> tuple[float, float, float]:
+    def step(self, state: State, target: CruiseTarget) -> tuple[float, float, float]:
         """
         Return what answers a state.
 
         Parameters
         ----------
-        time
-            Stamp of the state [s].
-        position_w, quat_wb_wxyz
-            Pose: position [m], world axes; attitude, body to world.
-        velocity_b, omega_b
-            Twist over ground in body axes [m/s], [rad/s].
-        depth
-            Depth to hold [m], positive below the world's z = 0.
-        heading
-            Heading to hold [rad], counter-clockwise from east.
-        speed
-            Forward speed over ground to hold [m/s].
+        state
+            Of the vehicle.
+        target
+            What to hold.
 
         Returns
         -------
-        Thrust [N]; deflection of the rudder, positive to the left, and of the planes, positive
-        nose down [rad].
+        tuple
+            Thrust [N]; deflection of the rudder, positive to the left, and of the planes, positive
+            nose down [rad].
 
         """
-        self._advance(time)
-        r_wb = rot.from_quaternion(quat_wb_wxyz)
+        self._advance(state.time)
+        velocity_b, omega_b = state.velocity_b, state.omega_b
+        r_wb = rot.from_quaternion(state.quat_wb_wxyz)
         u = max(abs(velocity_b[0]), self.gains.min_speed)
         climb = rot.to_world(r_wb, velocity_b)[2]
-        pitch = self._pitch(-depth - position_w[2], climb, u)
-        rate_y, rate_z = self._rates(r_wb, pitch, heading)
+        pitch = self._pitch(-target.depth - state.position_w[2], climb, u)
+        rate_y, rate_z = self._rates(r_wb, pitch, target.heading)
         planes = self._deflection(self._planes, rate_y - omega_b[1], u)
         rudder = self._deflection(self._rudder, rate_z - omega_b[2], u)
-        return self._thrust(speed - velocity_b[0]), rudder, planes
+        return self._thrust(target.speed - velocity_b[0]), rudder, planes
 
     def _pitch(self, rise: float, climb: float, u: float) -> float:
         """Return the pitch [rad], nose up, that leads to a height ``rise`` [m] above."""

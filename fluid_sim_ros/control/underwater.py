@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.allocation import Allocator
@@ -10,6 +11,7 @@ from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.law import ControlLaw, within
 from fluid_sim_ros.control.plant import Plant
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 
 #: Attitude and depth before travel: a vehicle that rolls cannot point its thrust.
@@ -45,6 +47,29 @@ class UnderwaterGains(Gains):
     )
 
 
+class DepthTarget(NamedTuple):
+    """
+    What an underwater vehicle holds.
+
+    Attributes
+    ----------
+    depth
+        [m], positive below the world's z = 0.
+    heading
+        [rad], counter-clockwise from east.
+    speed_h
+        Surge (along the heading) and sway (to its left) over ground [m/s], shape (2,).
+    place_w
+        Horizontal position [m], world axes; takes the place of ``speed_h``. None: only the speed.
+
+    """
+
+    depth: float
+    heading: float
+    speed_h: Sequence[float] = (0.0, 0.0)
+    place_w: Sequence[float] | None = None
+
+
 class UnderwaterController(ControlLaw):
     """
     Holds depth, heading and a level attitude, and a speed or a place.
@@ -76,50 +101,28 @@ class UnderwaterController(ControlLaw):
         self._angular_integral = Integral(gains.attitude_integral, gains.max_angular_integral)
         super().__init__(self._integral, self._angular_integral)
 
-    def step(
-        self,
-        time: float,
-        position_w: Sequence[float],
-        quat_wb_wxyz: Sequence[float],
-        velocity_b: Sequence[float],
-        omega_b: Sequence[float],
-        depth: float,
-        heading: float,
-        *,
-        speed_h: Sequence[float] = (0.0, 0.0),
-        place_w: Sequence[float] | None = None,
-    ) -> list[float]:
+    def step(self, state: State, target: DepthTarget) -> list[float]:
         """
         Return the thrusts that answer a state.
 
         Parameters
         ----------
-        time
-            Stamp of the state [s].
-        position_w, quat_wb_wxyz
-            Pose: position [m], world axes; attitude, body to world.
-        velocity_b, omega_b
-            Twist over ground in body axes [m/s], [rad/s].
-        depth
-            Depth to hold [m], positive below the world's z = 0.
-        heading
-            Heading to hold [rad], counter-clockwise from east.
-        speed_h
-            Surge (along the heading) and sway (to its left) over ground [m/s].
-        place_w
-            Horizontal position to hold [m]; takes the place of ``speed_h``.
+        state
+            Of the vehicle.
+        target
+            What to hold.
 
         Returns
         -------
-        Thrusts [N], one per thruster.
+        list
+            Thrusts [N], one per thruster.
 
         """
-        self._advance(time)
-        r_wb = rot.from_quaternion(quat_wb_wxyz)
-        error_w = self._speed_error(
-            position_w, rot.to_world(r_wb, velocity_b), depth, heading, speed_h, place_w
-        )
-        error_b = self._rate_error(r_wb, omega_b, heading)
+        self._advance(state.time)
+        r_wb = rot.from_quaternion(state.quat_wb_wxyz)
+        velocity_w = rot.to_world(r_wb, state.velocity_b)
+        error_w = self._speed_error(state.position_w, velocity_w, target)
+        error_b = self._rate_error(r_wb, state.omega_b, target.heading)
         wrench_b = (*self._force(r_wb, error_w), *self._torque(error_b))
         thrusts = self.allocator.allocate(wrench_b)
         limited = self.allocator.scale < 1.0
@@ -128,16 +131,11 @@ class UnderwaterController(ControlLaw):
         return thrusts
 
     def _speed_error(
-        self,
-        position_w: Sequence[float],
-        velocity_w: rot.Vector3,
-        depth: float,
-        heading: float,
-        speed_h: Sequence[float],
-        place_w: Sequence[float] | None,
+        self, position_w: Sequence[float], velocity_w: rot.Vector3, target: DepthTarget
     ) -> rot.Vector3:
         """Return v* - v [m/s], world axes."""
         gains = self.gains
+        depth, heading, speed_h, place_w = target
         if place_w is None:
             c, s = math.cos(heading), math.sin(heading)
             vx = c * speed_h[0] - s * speed_h[1]

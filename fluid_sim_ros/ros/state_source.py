@@ -12,7 +12,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import read_stamped_pair
 from fluid_sim_ros.ros.polled_group import PolledGroup
-from fluid_sim_ros.ros.states import State, read_odometry
+from fluid_sim_ros.ros.states import StampedState, read_odometry
 
 _QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 
@@ -44,7 +44,7 @@ class StateSource:
 
         self._odometry = subscribe(Odometry, f'{vehicle}/odom')
         self._medium = subscribe(TwistStamped, f'{vehicle}/medium/{medium}') if medium else None
-        self._states: deque[State] = deque(maxlen=_QOS.depth)
+        self._states: deque[StampedState] = deque(maxlen=_QOS.depth)
         self._velocities: deque[tuple[int, tuple[float, ...]]] = deque(maxlen=_QOS.depth)
 
     @property
@@ -58,7 +58,7 @@ class StateSource:
         both = (self._odometry, self._medium)
         return [subscription.handle for subscription in both if subscription is not None]
 
-    def take(self) -> Iterator[State]:
+    def take(self) -> Iterator[StampedState]:
         """Yield the states that are complete now."""
         while got := self._odometry.handle.take_message(Odometry, True):
             try:
@@ -74,7 +74,7 @@ class StateSource:
             self._take_velocities(self._medium.handle)
             yield from self._pairs()
 
-    def _keep(self, state: State) -> None:
+    def _keep(self, state: StampedState) -> None:
         if self._states and state.stamp_ns < self._states[-1].stamp_ns:  # a reset
             self._states.clear()
             self._velocities.clear()
@@ -89,7 +89,7 @@ class StateSource:
                 continue
             self._velocities.append((message.stamp_ns, tuple(message.first.tolist())))
 
-    def _pairs(self) -> Iterator[State]:
+    def _pairs(self) -> Iterator[StampedState]:
         """Yield states with the velocity of their stamp; drop what lost its other half."""
         states, velocities = self._states, self._velocities
         while states and velocities:
@@ -100,7 +100,7 @@ class StateSource:
             if behind >= 0:
                 velocities.popleft()
             if behind == 0:
-                yield state._replace(medium_w=velocity_w)
+                yield StampedState(stamp_ns, state.state._replace(medium_w=velocity_w))
 
     def _report(self, fault: str) -> None:
         self._log.error(fault, throttle_duration_sec=1.0)

@@ -1,9 +1,9 @@
 """Reads what a controller needs from an odometry message, straight from its CDR bytes."""
 
-import math
 import struct
 from typing import NamedTuple
 
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import CommandError
 
 _HEADER = 4
@@ -13,39 +13,24 @@ _SIZE = _TWIST_AT + 8 * (6 + 36)
 _ORDER = {b'\x00\x00': '>', b'\x00\x01': '<'}
 
 
-class State(NamedTuple):
+class StampedState(NamedTuple):
     """
-    State of a vehicle's base_link as its odometry has it.
+    A state as an odometry message has it.
 
     Attributes
     ----------
     stamp_ns
         [ns].
-    position_w, quat_wb_wxyz
-        Pose in the odometry's frame (the world's axes): [m]; body to world, scalar first.
-    velocity_b, omega_b
-        Twist, base_link axes [m/s], [rad/s].
-    medium_w
-        Velocity of the medium at the vehicle [m/s], world axes; zero where nobody asked for it.
+    state
+        In the odometry's frame (the world's axes).
 
     """
 
     stamp_ns: int
-    position_w: tuple[float, ...]
-    quat_wb_wxyz: tuple[float, ...]
-    velocity_b: tuple[float, ...]
-    omega_b: tuple[float, ...]
-    medium_w: tuple[float, ...] = (0.0, 0.0, 0.0)
-
-    def is_sound(self) -> bool:
-        """Return whether every number is finite and the quaternion is near a unit one."""
-        _, position, quat, velocity, omega, medium = self
-        w, x, y, z = quat
-        finite = math.isfinite(sum(position) + sum(velocity) + sum(omega) + sum(medium))
-        return finite and 0.5 < w * w + x * x + y * y + z * z < 2.0
+    state: State
 
 
-def read_odometry(data: bytes) -> State:
+def read_odometry(data: bytes) -> StampedState:
     """
     Return the state in a nav_msgs/Odometry.
 
@@ -77,4 +62,5 @@ def read_odometry(data: bytes) -> State:
     except struct.error:
         raise CommandError(f'malformed odometry: ends at byte {len(data)}') from None
     stamp_ns = seconds * 1_000_000_000 + nanoseconds
-    return State(stamp_ns, (x, y, z), (qw, qx, qy, qz), twist[:3], twist[3:])
+    state = State(stamp_ns * 1e-9, (x, y, z), (qw, qx, qy, qz), twist[:3], twist[3:])
+    return StampedState(stamp_ns, state)

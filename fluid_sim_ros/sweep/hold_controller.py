@@ -9,18 +9,18 @@ from typing import Any
 import numpy as np
 
 from fluid_sim_ros.control.gains import Gains
-from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
+from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains, PoseTarget
 from fluid_sim_ros.control.plant import Plant
-from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps
 from fluid_sim_ros.sweep.sweep_file import Hold, Value
 
-_Numbers = list[float]
-#: Takes time, position, quaternion, velocity and rate; returns thrusts.
-Answer = Callable[[float, _Numbers, _Numbers, _Numbers, _Numbers], _Numbers]
+#: Takes a state; returns thrusts [N].
+Answer = Callable[[State], list[float]]
 
 
 class HoldController:
@@ -91,10 +91,11 @@ class HoldController:
         row = simulation.observe(forces=False)[self._row]
         position = row[nat.POSITION]
         self._errors.append(math.dist(position, self._target))
-        thrusts = self._answer(
+        state = State(
             simulation.time, position.tolist(), row[nat.QUATERNION].tolist(),
             row[nat.LINEAR_VELOCITY].tolist(), row[nat.ANGULAR_VELOCITY].tolist(),
         )  # fmt: skip
+        thrusts = self._answer(state)
         simulation.set_thrust(self._vehicle, thrusts)
 
     def columns(self) -> dict[str, Any]:
@@ -152,14 +153,14 @@ def _gains(kind: type[Gains], values: Mapping[str, Any]) -> Gains:
 
 def _multirotor(hold: Hold, plant: Plant) -> Callable[[Any], Answer]:
     return lambda gains: partial(
-        MultirotorController(plant, gains).step, target_w=hold.target, yaw=hold.yaw
+        MultirotorController(plant, gains).step, target=PoseTarget(hold.target, hold.yaw)
     )
 
 
 def _underwater(hold: Hold, plant: Plant) -> Callable[[Any], Answer]:
     return lambda gains: partial(
         UnderwaterController(plant, gains).step,
-        depth=-hold.target[2], heading=hold.yaw, place_w=hold.target,
+        target=DepthTarget(-hold.target[2], hold.yaw, place_w=hold.target),
     )  # fmt: skip
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.fixed_wing import FixedWingController, FixedWingGains
+from fluid_sim_ros.control.fixed_wing import FixedWingController, FixedWingGains, FlightTarget
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.closed_loop import cruise
@@ -88,9 +89,9 @@ STATE = (
 
 def test_a_repeated_state_gets_the_same_answer() -> None:
     controller = law()
-    controller.step(0.00, *STATE, 100.0, 0.5, 25.0)
-    first = controller.step(0.01, *STATE, 100.0, 0.5, 25.0)
-    assert controller.step(0.01, *STATE, 100.0, 0.5, 25.0) == first
+    controller.step(State(0.00, *STATE), FlightTarget(100.0, 0.5, 25.0))
+    first = controller.step(State(0.01, *STATE), FlightTarget(100.0, 0.5, 25.0))
+    assert controller.step(State(0.01, *STATE), FlightTarget(100.0, 0.5, 25.0)) == first
 
 
 def test_time_going_back_starts_anew() -> None:
@@ -104,15 +105,19 @@ def test_time_going_back_starts_anew() -> None:
 def test_same_commands_whichever_way_the_world_is_turned(
     line: tuple[float, float, float] | None,
 ) -> None:
-    expected = law().step(0.0, *STATE, 100.0, 0.5, 25.0, line_w=line)
+    expected = law().step(State(0.0, *STATE), FlightTarget(100.0, 0.5, 25.0, line))
     turn = 1.1
     r, half = rot.from_yaw(turn), turn / 2
     w, x, y, z = STATE[1]
     c, s = np.cos(half), np.sin(half)
     quat = (c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w)
     found = law().step(
-        0.0, rot.to_world(r, STATE[0]), quat, STATE[2], STATE[3], rot.to_world(r, STATE[4]),
-        100.0, 0.5 + turn, 25.0, line_w=None if line is None else rot.to_world(r, line),
+        State(
+            0.0, rot.to_world(r, STATE[0]), quat, STATE[2], STATE[3], rot.to_world(r, STATE[4])
+        ),
+        FlightTarget(
+            100.0, 0.5 + turn, 25.0, None if line is None else rot.to_world(r, line)
+        ),
     )  # fmt: skip
     assert found == pytest.approx(expected, abs=1e-12)
 
@@ -120,8 +125,8 @@ def test_same_commands_whichever_way_the_world_is_turned(
 def test_integrals_stand_still_while_the_altitude_is_far() -> None:
     controller = law()
     for i in range(300):
-        command = controller.step(i * 0.01, *STATE, 500.0, 0.1, 25.0)
-    again = controller.step(3.0, *STATE, 500.0, 0.1, 25.0)
+        command = controller.step(State(i * 0.01, *STATE), FlightTarget(500.0, 0.1, 25.0))
+    again = controller.step(State(3.0, *STATE), FlightTarget(500.0, 0.1, 25.0))
     assert again.thrust == command.thrust
     assert LIMITS[0] < command.thrust <= LIMITS[1]
 
@@ -131,8 +136,11 @@ def test_commands_stay_within_their_limits_in_any_attitude() -> None:
     for _ in range(200):
         quat = rng.normal(size=4)
         command = law().step(
-            0.0, rng.normal(size=3) * 100, quat / np.linalg.norm(quat), rng.normal(size=3) * 20,
-            rng.normal(size=3) * 3, rng.normal(size=3) * 10, 100.0, 1.0, 40.0,
+            State(
+                0.0, rng.normal(size=3) * 100, quat / np.linalg.norm(quat),
+                rng.normal(size=3) * 20, rng.normal(size=3) * 3, rng.normal(size=3) * 10,
+            ),
+            FlightTarget(100.0, 1.0, 40.0),
         )  # fmt: skip
         assert np.isfinite(command).all()
         assert 20.0 <= command.thrust <= LIMITS[1]

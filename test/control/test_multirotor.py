@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
+from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains, PoseTarget
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.closed_loop import Loop, fly
@@ -96,18 +97,17 @@ def test_integrator_stands_still_while_a_limit_binds() -> None:
     controller = MultirotorController(PLANT)
     for i in range(100):  # pushed back: the speed error asks for more than the largest tilt
         velocity_b = (-9.0 if i else 0.0, 0.0, 0.0)
-        controller.step(
-            i * 0.01, (0, 0, 1.5), (1, 0, 0, 0), velocity_b, (0, 0, 0), (90.0, 0, 1.5), 0.0
-        )
+        state = State(i * 0.01, (0, 0, 1.5), (1, 0, 0, 0), velocity_b, (0, 0, 0))
+        controller.step(state, PoseTarget((90.0, 0, 1.5)))
     assert controller.integral_w == (0.0, 0.0, 0.0)
 
 
 def test_a_repeated_state_gets_the_same_answer() -> None:
     controller = MultirotorController(PLANT)
     state = ((0.3, 0.1, 1.4), (0.99, 0.1, 0.0, 0.0), (0.2, 0.0, 0.1), (0.1, 0.2, 0.3))
-    controller.step(0.00, *state, HOME, 0.0)
-    first = controller.step(0.01, *state, HOME, 0.0)
-    assert controller.step(0.01, *state, HOME, 0.0) == first
+    controller.step(State(0.00, *state), PoseTarget(HOME))
+    first = controller.step(State(0.01, *state), PoseTarget(HOME))
+    assert controller.step(State(0.01, *state), PoseTarget(HOME)) == first
 
 
 def test_time_going_back_forgets_the_integral() -> None:
@@ -123,14 +123,16 @@ def test_same_commands_whichever_way_the_world_is_turned() -> None:
     # turning world, state and target about the vertical leaves the thrusts as they are
     state = ((0.3, 0.1, 1.4), (0.99, 0.1, -0.05, 0.0), (0.2, 0.0, 0.1), (0.1, 0.2, 0.3))
     target, yaw = (1.0, -0.5, 2.0), 0.4
-    expected = MultirotorController(PLANT).step(0.0, *state, target, yaw)
+    expected = MultirotorController(PLANT).step(State(0.0, *state), PoseTarget(target, yaw))
     turn = 1.1
     r, half = rot.from_yaw(turn), turn / 2
     w, x, y, z = state[1]
     c, s = np.cos(half), np.sin(half)
     quat = (c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w)
     turned = (rot.to_world(r, state[0]), quat, state[2], state[3])
-    found = MultirotorController(PLANT).step(0.0, *turned, rot.to_world(r, target), yaw + turn)
+    found = MultirotorController(PLANT).step(
+        State(0.0, *turned), PoseTarget(rot.to_world(r, target), yaw + turn)
+    )
     assert found == pytest.approx(expected, abs=1e-12)
 
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.torpedo import TorpedoController, TorpedoGains
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.torpedo import CruiseTarget, TorpedoController, TorpedoGains
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.closed_loop import Loop
@@ -26,7 +27,7 @@ def cruise(law, seconds, *, depth=5.0, heading=0.0, speed=1.5, current=(0.0, 0.0
     loop, rows = Loop('remus100', RATE, 'current'), []
     for _ in range(round(seconds * RATE)):
         state = loop.state()
-        thrust, rudder, planes = law.step(*state, depth, heading, speed)
+        thrust, rudder, planes = law.step(state, CruiseTarget(depth, heading, speed))
         r_wb = rot.from_quaternion(state[2])
         rows.append([
             state[0], -state[1][2], rot.yaw_of(r_wb), state[3][0], np.arccos(r_wb[8]), thrust,
@@ -83,11 +84,11 @@ def test_limits_hold():
 def test_a_repeated_state_gets_the_same_answer_and_time_going_back_forgets():
     law = controller()
     state = ((0.3, 0.1, -4.9), (0.99, 0.1, 0.0, 0.0), (1.4, 0.0, 0.1), (0.1, 0.02, 0.03))
-    begun = law.step(0.0, *state, 5.0, 0.0, 1.5)
-    first = law.step(0.02, *state, 5.0, 0.0, 1.5)
+    begun = law.step(State(0.0, *state), CruiseTarget(5.0, 0.0, 1.5))
+    first = law.step(State(0.02, *state), CruiseTarget(5.0, 0.0, 1.5))
     assert first != begun
-    assert law.step(0.02, *state, 5.0, 0.0, 1.5) == first
-    assert law.step(0.0, *state, 5.0, 0.0, 1.5) == begun
+    assert law.step(State(0.02, *state), CruiseTarget(5.0, 0.0, 1.5)) == first
+    assert law.step(State(0.0, *state), CruiseTarget(5.0, 0.0, 1.5)) == begun
 
 
 def test_bad_plants_and_gains_are_one_line():

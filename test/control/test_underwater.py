@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.closed_loop import dive
@@ -82,16 +83,17 @@ def test_integrators_stand_still_while_thrusters_are_at_their_limits() -> None:
     weak = dataclasses.replace(PLANT, thrust_limits=PLANT.thrust_limits * 1e-3)
     tired = UnderwaterController(weak)
     for i in range(50):
-        tired.step(i * 0.02, (0, 0, -5), (1, 0, 0, 0), (0, 0, 0), (0, 0, 0), 9.0, 2.0)
+        state = State(i * 0.02, (0, 0, -5), (1, 0, 0, 0), (0, 0, 0), (0, 0, 0))
+        tired.step(state, DepthTarget(9.0, 2.0))
     assert tired._integral.value == [0, 0, 0] and tired._angular_integral.value == [0, 0, 0]
 
 
 def test_a_repeated_state_gets_the_same_answer() -> None:
     held = controller()
     state = ((0.3, 0.1, -4.9), (0.99, 0.1, 0.0, 0.0), (0.2, 0.0, 0.1), (0.1, 0.2, 0.3))
-    held.step(0.00, *state, 5.0, 0.0)
-    first = held.step(0.01, *state, 5.0, 0.0)
-    assert held.step(0.01, *state, 5.0, 0.0) == first
+    held.step(State(0.00, *state), DepthTarget(5.0, 0.0))
+    first = held.step(State(0.01, *state), DepthTarget(5.0, 0.0))
+    assert held.step(State(0.01, *state), DepthTarget(5.0, 0.0)) == first
 
 
 def test_time_going_back_forgets_the_integrals() -> None:

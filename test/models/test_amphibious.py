@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks.vehicles import amphibious as bench
 from fluid_sim_ros import Scene, Simulation
-from fluid_sim_ros.control.multirotor import MultirotorController
+from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.closed_loop import Loop
@@ -111,6 +111,6 @@ def test_the_quadrotor_controller_flies_it_by_its_rotors(tmp_path):
     controller = MultirotorController(plant)
     loop = Loop(str(scene), 100.0, 'wind')
     for i in range(1500):
-        thrusts = controller.step(*loop.state(), (0.0, 0.0, 1.5), 0.0)
+        thrusts = controller.step(loop.state(), PoseTarget((0.0, 0.0, 1.5)))
         loop.advance(thrusts, (4.0, 0.0, 0.0) if i >= 200 else (0.0, 0.0, 0.0))
     assert np.linalg.norm(np.subtract(loop.state()[1], (0, 0, 1.5))) < 0.1

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fluid_sim_ros.control.multirotor import MultirotorController
-from fluid_sim_ros.control.underwater import UnderwaterController
+from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController
 from fluid_sim_ros.new_vehicle.files import design_vehicle, write_vehicle
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.closed_loop import Loop
@@ -22,7 +22,7 @@ def test_the_quadrotor_controller_holds_it_in_a_gust(tmp_path, mass, side, layou
     target = tuple(loop.state()[1])
     for i in range(1500):
         state = loop.state()
-        thrusts = controller.step(*state, target, 0.0)
+        thrusts = controller.step(state, PoseTarget(target))
         loop.advance(thrusts, (4.0, 0.0, 0.0) if i >= 200 else (0.0, 0.0, 0.0))
     assert np.linalg.norm(np.subtract(loop.state()[1], target)) < 0.1
 
@@ -35,6 +35,6 @@ def test_the_rov_controller_holds_it_in_a_current(tmp_path):
     loop = Loop(scene, 50.0, 'current')
     for i in range(2000):
         state = loop.state()
-        thrusts = controller.step(*state, 2.5, 0.5, place_w=(0.0, 0.0))
+        thrusts = controller.step(state, DepthTarget(2.5, 0.5, place_w=(0.0, 0.0)))
         loop.advance(thrusts, (0.2, 0.0, 0.0) if i >= 500 else (0.0, 0.0, 0.0))
     assert loop.state()[1] == pytest.approx([0, 0, -2.5], abs=0.05)

@@ -12,7 +12,8 @@ from rcl_interfaces.srv import DescribeParameters, ListParameters, SetParameters
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from fluid_sim_ros.control.multirotor import MultirotorController
+from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.ros_processes import Peer, Process, error_lines, node, stamp_ns, wait_until
 
@@ -73,14 +74,12 @@ def test_each_state_gets_the_answer_of_the_law_with_its_own_stamp():
     law = MultirotorController(plant_of('quadrotor', 'x500')[0])
     with controller('quad') as process, Peer() as peer:
         simulator = Simulator(peer)
-        law.step(0.0, (0, 0, 1.5), (1, 0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 1.5), 0.0)
+        home, rest = PoseTarget((0.0, 0.0, 1.5)), ((1, 0, 0, 0), (0, 0, 0), (0, 0, 0))
+        law.step(State(0.0, (0, 0, 1.5), *rest), home)
         for tick in range(1, 20):
             x = 0.01 * tick
             answer = simulator.ask(odometry(x=x, tick=tick))
-            expected = law.step(
-                tick * PERIOD_NS * 1e-9, (x, 0.0, 1.5), (1, 0, 0, 0), (0, 0, 0), (0, 0, 0),
-                (0.0, 0.0, 1.5), 0.0,
-            )  # fmt: skip
+            expected = law.step(State(tick * PERIOD_NS * 1e-9, (x, 0.0, 1.5), *rest), home)
             assert list(answer.effort) == expected
         assert not answer.name
         process.signal(signal.SIGINT)

@@ -42,8 +42,8 @@ def test_states_alone_come_in_order(owner):
         for second in (1, 2, 3):
             states.publish(stamped(Odometry(), second))
         wait_until(lambda: found.extend(source.take()) or len(found) == 3, 'three states')
-    assert [state.stamp_ns // 10**9 for state in found] == [1, 2, 3]
-    assert all(state.medium_w == (0.0, 0.0, 0.0) for state in found)
+    assert [each.stamp_ns // 10**9 for each in found] == [1, 2, 3]
+    assert all(each.state.medium_w == (0.0, 0.0, 0.0) for each in found)
 
 
 def test_a_state_waits_for_the_velocity_of_its_own_stamp(owner):
@@ -61,9 +61,10 @@ def test_a_state_waits_for_the_velocity_of_its_own_stamp(owner):
         odometry = [stamped(Odometry(), second) for second in (1, 2, 3, 5, 6)]
         deliver(*odometry, until=lambda: len(source._states) == 5)
         deliver(*(wind(s, 10 * s) for s in (1, 3, 4, 5)), until=lambda: len(found) == 3)
-        assert [(s.stamp_ns // 10**9, s.medium_w[0]) for s in found] == [(1, 10), (3, 30), (5, 50)]
+        pairs = [(each.stamp_ns // 10**9, each.state.medium_w[0]) for each in found]
+        assert pairs == [(1, 10), (3, 30), (5, 50)]
         # after a reset, nothing of before stands in the way
         found.clear()
         deliver(stamped(Odometry(), 0), until=lambda: source._states[-1].stamp_ns == 0)
         deliver(wind(0, math.nan), until=lambda: len(found) == 1)
-    assert found[0].stamp_ns == 0 and not found[0].is_sound()
+    assert found[0].stamp_ns == 0 and not found[0].state.is_sound()

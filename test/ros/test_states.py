@@ -38,8 +38,8 @@ def odometry(frame: str, child: str, values: list[float], stamp_ns: int = 0) -> 
 def test_reads_what_was_serialised(
     frame: str, child: str, values: list[float], stamp_ns: int
 ) -> None:
-    state = read_odometry(serialize_message(odometry(frame, child, values, stamp_ns)))
-    assert state.stamp_ns == stamp_ns
+    found_ns, state = read_odometry(serialize_message(odometry(frame, child, values, stamp_ns)))
+    assert (found_ns, state.time) == (stamp_ns, stamp_ns * 1e-9)
     found = [*state.position_w, *state.quat_wb_wxyz, *state.velocity_b, *state.omega_b]
     assert found == values
 
@@ -52,8 +52,8 @@ def test_reads_big_endian_too() -> None:
     text = struct.pack('>I', 1) + b'\x00\x00\x00\x00'
     big = b'\x00\x00\x00\x00' + struct.pack('>iI', *head) + 2 * text
     big += doubles.astype('>f8').tobytes()
-    state = read_odometry(big)
-    assert state.stamp_ns == 1_500_000_002
+    stamp_ns, state = read_odometry(big)
+    assert stamp_ns == 1_500_000_002
     assert state.position_w == (0.0, 1.0, 2.0) and state.omega_b == (10.0, 11.0, 12.0)
 
 
@@ -68,7 +68,8 @@ def test_soundness(place: int | None, value: float, sound: bool) -> None:
     values = [0.1, 0.2, 0.3, 1.0, *[0.0] * 9]
     if place is not None:
         values[place] = value
-    assert read_odometry(serialize_message(odometry('a', 'b', values))).is_sound() is sound
+    state = read_odometry(serialize_message(odometry('a', 'b', values))).state
+    assert state.is_sound() is sound
 
 
 def test_a_truncated_message_is_one_clear_error_at_every_length() -> None:

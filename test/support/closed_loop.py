@@ -8,9 +8,10 @@ import numpy as np
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.fixed_wing import FixedWingController
-from fluid_sim_ros.control.multirotor import MultirotorController
-from fluid_sim_ros.control.underwater import UnderwaterController
+from fluid_sim_ros.control.fixed_wing import FixedWingController, FlightTarget
+from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController
 
 Vector = tuple[float, float, float]
 STILL: Vector = (0.0, 0.0, 0.0)
@@ -27,10 +28,10 @@ class Loop:
         self._medium_w = STILL
         self._set_medium = getattr(self.simulation, f'set_{medium}')  # wind or current
 
-    def state(self) -> tuple[float, list[float], list[float], rot.Vector3, list[float]]:
+    def state(self) -> State:
         q, v = self.data.qpos.tolist(), self.data.qvel.tolist()
         velocity_b = rot.to_body(rot.from_quaternion(q[3:7]), v[:3])
-        return self.simulation.time, q[:3], q[3:7], velocity_b, v[3:6]
+        return State(self.simulation.time, q[:3], q[3:7], velocity_b, v[3:6])
 
     def advance(
         self, thrusts: list[float], medium_w: Vector, joints: Sequence[float] = ()
@@ -61,7 +62,7 @@ def fly(
         loop.data.qpos[3:7] = np.array(quat) / np.linalg.norm(quat)
     for _ in range(round(seconds * rate)):
         state = loop.state()
-        thrusts = controller.step(*state, target(state[0]), yaw)
+        thrusts = controller.step(state, PoseTarget(target(state.time), yaw))
         heading = rot.yaw_of(rot.from_quaternion(state[2]))
         rows.append([state[0], *state[1], heading, *thrusts])
         loop.advance(thrusts, wind(state[0]))
@@ -83,7 +84,9 @@ def dive(
     loop, rows = Loop('rov', rate, 'current'), []
     for _ in range(round(seconds * rate)):
         state = loop.state()
-        thrusts = controller.step(*state, depth(state[0]), heading(state[0]), **hold)
+        thrusts = controller.step(
+            state, DepthTarget(depth(state.time), heading(state.time), **hold)
+        )
         r_wb = rot.from_quaternion(state[2])
         tilt = np.arccos(min(1.0, r_wb[8]))
         rows.append([state[0], *state[1], rot.yaw_of(r_wb), tilt, *loop.data.qvel[:3], *thrusts])
@@ -108,7 +111,9 @@ def cruise(
     air = STILL
     for _ in range(round(seconds * rate)):
         state = loop.state()
-        command = controller.step(*state, air, altitude, heading, airspeed, line_w=line)
+        command = controller.step(
+            state._replace(medium_w=air), FlightTarget(altitude, heading, airspeed, line)
+        )
         r_wb = rot.from_quaternion(state[2])
         speed = np.linalg.norm(np.subtract(loop.data.qvel[:3], air))
         roll = np.arctan2(r_wb[7], r_wb[8])

@@ -5,13 +5,13 @@ import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.torpedo import TorpedoController, TorpedoGains
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.torpedo import CruiseTarget, TorpedoController, TorpedoGains
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.ros.process import run_process
-from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'auv_controller'
 DEFAULT_SCENE = 'remus100'
@@ -54,7 +54,7 @@ class AuvController(ControllerNode):
         """Take the depth and heading to hold from the next state."""
         self._first = None
 
-    def answer(self, time: float, state: State) -> Answer:
+    def answer(self, state: State) -> Answer:
         """Return the thrust [N] and the deflections [rad] that hold what is wanted."""
         x, y, z = state.position_w
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
@@ -63,14 +63,11 @@ class AuvController(ControllerNode):
         depth, heading, speed = self._wanted
         depth = self._first[0] if math.isnan(depth) else depth
         heading = self._first[1] if math.isnan(heading) else heading
-        waypoint = self.plan.target(time, state.position_w, yaw)
+        waypoint = self.plan.target(state.time, state.position_w, yaw)
         if waypoint is not None:
             to_x, to_y, to_z = waypoint.position_w
             depth, heading = -to_z, math.atan2(to_y - y, to_x - x)
-        thrust, *fins = self._law.step(
-            time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
-            depth, heading, speed,
-        )  # fmt: skip
+        thrust, *fins = self._law.step(state, CruiseTarget(depth, heading, speed))
         return Answer([thrust], [fins[i] for i in self._order])
 
 

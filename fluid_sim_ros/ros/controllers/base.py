@@ -24,6 +24,7 @@ from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.messages.templates import StampBytes, Template
@@ -31,7 +32,7 @@ from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.parameter_table import Table, declare, judge
 from fluid_sim_ros.ros.polled_group import PolledGroup
 from fluid_sim_ros.ros.state_source import StateSource
-from fluid_sim_ros.ros.states import State
+from fluid_sim_ros.ros.states import StampedState
 from fluid_sim_ros.simulation.plant import plant_of
 
 #: Longest wait before signals are looked at again [ns].
@@ -177,8 +178,8 @@ class ControllerNode(Node, ABC):
     # ---- what a controller adds --------------------------------------------------------------
 
     @abstractmethod
-    def answer(self, time: float, state: State) -> Answer:
-        """Return the commands that answer a state; ``time`` is its stamp [s]."""
+    def answer(self, state: State) -> Answer:
+        """Return the commands that answer a state."""
 
     @abstractmethod
     def restart(self) -> None:
@@ -204,8 +205,8 @@ class ControllerNode(Node, ABC):
                 wait_set.add_subscription(handle)
             wait_set.wait(_WAIT_NS)
             # every state is answered, in order, so that the same states get the same answers
-            for state in self._states.take():
-                self._on_state(state)
+            for stamped in self._states.take():
+                self._on_state(stamped)
             if got := waypoint.take_message(PoseStamped, True):
                 self._on_waypoint(got[0])
 
@@ -216,7 +217,8 @@ class ControllerNode(Node, ABC):
         """Have ``run`` return; safe in a signal handler and in any thread."""
         self._ending = True
 
-    def _on_state(self, state: State) -> None:
+    def _on_state(self, stamped: StampedState) -> None:
+        stamp_ns, state = stamped
         if not state.is_sound():
             # one such number would stay in the controller's integrators for ever
             self.get_logger().error(
@@ -224,13 +226,13 @@ class ControllerNode(Node, ABC):
                 throttle_duration_sec=1.0,
             )
             return
-        if state.stamp_ns < self._last_stamp_ns:
+        if stamp_ns < self._last_stamp_ns:
             self.plan.restart()
             self.restart()
             self.get_logger().info('time went back: starting anew')
-        self._last_stamp_ns = state.stamp_ns
-        thrusts, joints = self.answer(state.stamp_ns * 1e-9, state)
-        self._stamp.set(state.stamp_ns)
+        self._last_stamp_ns = stamp_ns
+        thrusts, joints = self.answer(state)
+        self._stamp.set(stamp_ns)
         if self._joints is not None:
             self._joints.publish(self._stamp.view, joints)
         self._thrusts.publish(self._stamp.view, thrusts)

@@ -9,13 +9,14 @@ from fluid_sim_ros.control.fixed_wing import (
     FixedWingCommand,
     FixedWingController,
     FixedWingGains,
+    FlightTarget,
 )
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import HEADING, OF_FIRST
 from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.ros.process import run_process
-from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'plane_controller'
 DEFAULT_SCENE = 'aerosonde'
@@ -65,7 +66,7 @@ class PlaneController(ControllerNode):
         """Take the altitude and heading to hold from the next state."""
         self._first = None
 
-    def answer(self, time: float, state: State) -> Answer:
+    def answer(self, state: State) -> Answer:
         """Return thrust [N] and deflections [rad] that hold what is wanted."""
         r_wb = rot.from_quaternion(state.quat_wb_wxyz)
         if self._first is None:
@@ -74,13 +75,11 @@ class PlaneController(ControllerNode):
         altitude = self._first[0] if math.isnan(altitude) else altitude
         heading = self._first[1] if math.isnan(heading) else heading
         line = None
-        waypoint = self.plan.target(time, state.position_w, rot.yaw_of(r_wb))
+        waypoint = self.plan.target(state.time, state.position_w, rot.yaw_of(r_wb))
         if waypoint is not None:
             line, altitude, heading = waypoint.position_w, waypoint.position_w[2], waypoint.yaw
-        thrust, *surfaces = self._law.step(
-            time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
-            state.medium_w, altitude, heading, airspeed, line_w=line,
-        )  # fmt: skip
+        target = FlightTarget(altitude, heading, airspeed, line)
+        thrust, *surfaces = self._law.step(state, target)
         return Answer([thrust], [surfaces[i] for i in self._order])
 
 

@@ -4,12 +4,12 @@ import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains
+from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains, PoseTarget
+from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.process import run_process
-from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'quad_controller'
 DEFAULT_SCENE = 'quadrotor'
@@ -27,18 +27,14 @@ class QuadController(ControllerNode):
         """Take the place to hold from the next state."""
         self._home = None
 
-    def answer(self, time: float, state: State) -> Answer:
+    def answer(self, state: State) -> Answer:
         """Return the thrusts [N] towards the present waypoint."""
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._home is None:
             x, y, z = state.position_w
             self._home = Waypoint((x, y, z), yaw)
-        target = self.plan.target(time, state.position_w, yaw) or self._home
-        thrusts = self._law.step(
-            time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
-            target.position_w, target.yaw,
-        )  # fmt: skip
-        return Answer(thrusts)
+        target = self.plan.target(state.time, state.position_w, yaw) or self._home
+        return Answer(self._law.step(state, PoseTarget(target.position_w, target.yaw)))
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -5,13 +5,13 @@ import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.underwater import UnderwaterController, UnderwaterGains
+from fluid_sim_ros.control.state import State
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameter_table import Declared
 from fluid_sim_ros.ros.process import run_process
-from fluid_sim_ros.ros.states import State
 
 NODE_NAME = 'rov_controller'
 DEFAULT_SCENE = 'rov'
@@ -46,7 +46,7 @@ class RovController(ControllerNode):
         """Take the depth and heading to hold from the next state."""
         self._first = None
 
-    def answer(self, time: float, state: State) -> Answer:
+    def answer(self, state: State) -> Answer:
         """Return the thrusts [N] that hold what is wanted."""
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._first is None:
@@ -55,15 +55,12 @@ class RovController(ControllerNode):
         depth = self._first[0] if math.isnan(depth) else depth
         heading = self._first[1] if math.isnan(heading) else heading
         place = None
-        waypoint = self.plan.target(time, state.position_w, yaw)
+        waypoint = self.plan.target(state.time, state.position_w, yaw)
         if waypoint is not None:
             place = waypoint.position_w[:2]
             depth, heading = -waypoint.position_w[2], waypoint.yaw
-        thrusts = self._law.step(
-            time, state.position_w, state.quat_wb_wxyz, state.velocity_b, state.omega_b,
-            depth, heading, speed_h=(surge, sway), place_w=place,
-        )  # fmt: skip
-        return Answer(thrusts)
+        target = DepthTarget(depth, heading, (surge, sway), place)
+        return Answer(self._law.step(state, target))
 
 
 def main(args: Sequence[str] | None = None) -> int:
