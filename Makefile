@@ -48,7 +48,7 @@ format: setup-dev
 	$(BIN)/clang-format -i $(shell find fluid_sim_ros/plugins/src -name "*.cc" -o -name "*.h")
 
 docs: setup-demo
-	@$(BIN)/python .ci/doc_tables.py
+	@PYTHONPATH=. $(BIN)/python .ci/doc_tables.py
 	@$(BIN)/python .ci/check_docs.py
 
 clean:

@@ -7,6 +7,7 @@ another folder, the argument, gets its own.
 """
 
 import ast
+import importlib
 import json
 import operator
 import os
@@ -112,6 +113,15 @@ def script_of(name: str) -> Path | None:
     return next((ROOT / 'benchmarks').glob(f'*/{name}.py'), None)
 
 
+def table_of(name: str, result: dict[str, Any]) -> str:
+    """Return the table that a benchmark's own ``table(result)`` makes of its result, or ''."""
+    script = script_of(name)
+    if script is None or '\ndef table(' not in script.read_text(encoding='utf-8'):
+        return ''
+    module = importlib.import_module(f'benchmarks.{script.parent.name}.{name}')
+    return str(module.table(result)).strip()
+
+
 def description(name: str, count: int) -> str:
     """Return the first paragraphs of a benchmark's docstring."""
     script = script_of(name)
@@ -134,9 +144,8 @@ def section(name: str, result: dict[str, Any], entries: dict[str, Any], folder: 
             for row in numbers
         ]
         parts.append('\n'.join(['| What | Value | Target | Met |', '|---|---|---|---|', *rows]))
-    table = folder / entry.get('table', f'{name}_table.md')
-    if table.exists():
-        parts.append(table.read_text(encoding='utf-8').strip())
+    if table := table_of(name, result):
+        parts.append(table)
     pictures = [folder / f'{name}.png', *sorted(folder.glob(f'{name}_*.png'))]
     pictures += [ROOT / path for path in entry.get('pictures', [])]
     parts += [

@@ -6,14 +6,18 @@ test fails when a table in the documentation is not what would be written.
 """
 
 import ast
+import json
 import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import bench_page  # a script beside this one
+
 from fluid_sim_ros.ros import parameters
 from fluid_sim_ros.scene import Scene, scene_names
+from test.packaging.layers import LEAVES, ORDER
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / 'fluid_sim_ros'
@@ -42,20 +46,22 @@ def _parameter_row(name: str, declared: Any) -> str:
 
 
 def accuracy() -> str:
-    """Return the table of stock MuJoCo against this package, as its benchmark left it."""
-    return (ROOT / 'benchmarks' / 'results' / 'accuracy_table.md').read_text().strip()
+    """Return the table of stock MuJoCo against this package, by the benchmark's result."""
+    return _table_of('plugin_stock_vs_ours')
 
 
 def advice() -> str:
-    """Return the table of the advisor's choices, as its benchmark left it."""
-    return (ROOT / 'benchmarks' / 'results' / 'lab_advise_table.md').read_text().strip()
+    """Return the table of the advisor's choices, by the benchmark's result."""
+    return _table_of('lab_advise')
+
+
+def _table_of(name: str) -> str:
+    path = bench_page.RESULTS / f'{name}.json'
+    return bench_page.table_of(name, json.loads(path.read_text(encoding='utf-8')))
 
 
 def rooms() -> str:
     """Return the package's tree in the order of imports, with what each room says of itself."""
-    sys.path.insert(0, str(ROOT / 'test' / 'packaging'))
-    from layers import LEAVES, ORDER
-
     lines = []
     for room in ORDER:
         for path in _modules_of(room):
@@ -104,8 +110,6 @@ def main() -> int:
         if new != old:
             path.write_text(new, encoding='utf-8')
             print(f'docs: wrote the table {name} of {page}')
-    import bench_page  # here: a script beside this one, in no package
-
     bench_page.main()
     return 0
 

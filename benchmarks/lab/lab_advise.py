@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.common import RESULTS, arguments, write
+from benchmarks.common import arguments, write
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.lab.advisor.advice import advised, verify
 from fluid_sim_ros.lab.advisor.advise import advise
@@ -61,14 +61,14 @@ def ship(row: dict[str, Any]) -> None:
         keep(row['scene'], row['advised'])
 
 
-def table(rows: list[dict[str, Any]]) -> str:
-    """Return the choices in Markdown."""
+def table(result: dict[str, Any]) -> str:
+    """Return the choices of a result in Markdown."""
     lines = [
         '| Scene | Tolerance | Metric | Fluid | Integrator | Timestep | Error '
         '| Cheaper than RK4 at 1 ms | Fails at | Verified |',
         '|---' * 10 + '|',
     ]
-    for row in rows:
+    for row in result['rows']:
         head = f'| `{row["scene"]}` | {row["tolerance"]:.0%} | '
         choice = row.get('choice')
         if not choice:
@@ -103,7 +103,7 @@ def main() -> None:
             rows.append(case(scene, tolerance))
             if not options.quick:
                 ship(rows[-1])
-            print(table(rows[-1:]).splitlines()[-1], flush=True)
+            print(table({'rows': rows[-1:]}).splitlines()[-1], flush=True)
     rows.sort(key=lambda row: (row['scene'], row['tolerance']))
     chosen = [row for row in rows if row.get('choice')]
     gains = [row['cheaper_than_baseline'] for row in chosen]
@@ -119,8 +119,6 @@ def main() -> None:
     }
     print(summary)
     write(options.json, {'summary': summary, 'rows': rows})
-    if not options.quick:
-        (RESULTS / 'lab_advise_table.md').write_text(table(rows), encoding='utf-8')
 
 
 if __name__ == '__main__':

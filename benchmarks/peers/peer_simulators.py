@@ -152,8 +152,9 @@ def _crossing(curve: Sequence[tuple[float, float]], target: float) -> dict[str, 
     return None
 
 
-def table(tasks: dict[str, Any]) -> str:
+def table(result: dict[str, Any]) -> str:
     """Return the times at equal error as a table in Markdown, the fastest of a column bold."""
+    tasks = result['tasks']
     columns = [
         (f'{task["title"]}, {target} m', row, lost(task))
         for task in tasks.values()
@@ -216,10 +217,8 @@ def main() -> None:
     from benchmarks.peers.peer_picture import draw
 
     result = measure(options.quick)
-    rows = table(result['tasks'])
-    print(rows)
+    print(table(result))
     write(options.json, result)
-    options.json.with_name('peer_simulators_table.md').write_text(rows, encoding='utf-8')
     draw(result, options.json.with_suffix('.png'))
 
 

@@ -5,8 +5,8 @@ An ellipsoid .5/.2/.1 m of falling density, so that the largest added mass is 0 
 mass. T is the kinetic energy of body and fluid: an ideal fluid keeps it, drag only lowers it.
 Each run is judged at every step. Beside it the lagged method of other simulators, which applies
 -A times the acceleration of the step before: its error grows m_A/m-fold with every step, so it
-diverges once the added mass exceeds the mass, whatever the timestep. Writes JSON,
-``results/stability_table.md`` and a picture.
+diverges once the added mass exceeds the mass, whatever the timestep. Writes JSON
+and a picture.
 Run: ``python -m benchmarks.plugins.plugin_stability [--quick] [--json PATH]``.
 """
 
@@ -260,7 +260,7 @@ def draw(path: Path = RESULTS / 'plugin_stability.png') -> None:
 
 
 def main() -> None:
-    """Measure, print, write JSON, table and picture."""
+    """Measure, print, write JSON and picture."""
     options = arguments(__doc__, 'plugin_stability')
     result = measure(*(((1.0, 10.0), 20.0) if options.quick else (RATIOS, DURATION)))
     print(table(result))
@@ -270,7 +270,6 @@ def main() -> None:
     print('lagged method, steps to 1000 T0:', result['lagged_steps_to_1000_T0'])
     write(options.json, result)
     if not options.quick:
-        (RESULTS / 'stability_table.md').write_text(table(result), encoding='utf-8')
         draw()
 
 

@@ -4,10 +4,12 @@ Stock MuJoCo against fluid_sim: the accuracy table of the README.
 Each row is one fact with a reference that neither engine computed: a closed form, the published
 equations integrated in numpy, a table of measurements. Both sides run at the same timestep. Stock
 gets what MuJoCo offers for the case: the ellipsoid model, gravcomp for the weight that buoyancy
-carries, a wind set anew at every step. Writes the rows as JSON, ``results/accuracy_table.md`` and
-a picture.
+carries, a wind set anew at every step. Writes the rows as JSON,
+from which ``make docs`` makes the table, and a picture.
 Run: ``python -m benchmarks.plugins.plugin_stock_vs_ours [--quick] [--json PATH]``.
 """
+
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -33,10 +35,10 @@ def cell(row: Row, value: float | None) -> str:
     return f'{value:.4g} ({size})'
 
 
-def table(rows: list[Row]) -> str:
-    """Return the rows as a table in Markdown."""
+def table(result: dict[str, Any]) -> str:
+    """Return the rows of a result as a table in Markdown."""
     lines = ['| Case | Reference | Stock MuJoCo | fluid_sim |', '|---|---|---|---|']
-    for row in rows:
+    for row in (Row(**values) for values in result['rows']):
         case = f'{row.case} [{row.unit}]' if row.unit else row.case
         lines.append(
             f'| {case} | {row.exact:.4g} | {cell(row, row.stock)} | {cell(row, row.ours)} |'
@@ -66,14 +68,13 @@ def draw(rows: list[Row]) -> None:
 
 
 def main() -> None:
-    """Measure, print, write JSON, table and picture."""
+    """Measure, print, write JSON and picture."""
     options = arguments(__doc__, 'plugin_stock_vs_ours')
     rows = measure(13 if options.quick else 61)
-    text = table(rows)
-    print(text)
-    write(options.json, {'rows': [row._asdict() for row in rows]})
+    result = {'rows': [row._asdict() for row in rows]}
+    print(table(result))
+    write(options.json, result)
     if not options.quick:
-        (RESULTS / 'accuracy_table.md').write_text(text, encoding='utf-8')
         draw(rows)
 
 

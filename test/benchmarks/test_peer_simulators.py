@@ -106,7 +106,7 @@ def test_a_comparison_becomes_text_and_a_picture(underwater, tmp_path):
     lost = task['points'][-1]
     assert lost['peer'] == 'MuJoCo lagged'
     assert 0 < lost['diverged_at_s'] < 5
-    assert '| MuJoCo lagged | diverges | diverges |' in peers.table(result['tasks'])
+    assert '| MuJoCo lagged | diverges | diverges |' in peers.table(result)
     assert draw(result, tmp_path / 'picture.png').stat().st_size > 10_000
 
 

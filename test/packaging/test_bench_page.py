@@ -1,29 +1,20 @@
-import importlib.util
 import json
 import re
-from pathlib import Path
 
+import bench_page
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from test.support.paths import ROOT
+
 RESULTS = ROOT / 'benchmarks' / 'results'
 
 
-@pytest.fixture(scope='module')
-def bench_page():
-    """Import the script, which is in no package."""
-    spec = importlib.util.spec_from_file_location('bench_page', ROOT / '.ci' / 'bench_page.py')
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_the_page_is_what_the_results_say(bench_page):
+def test_the_page_is_what_the_results_say():
     # when this fails: make docs
     assert (ROOT / 'BENCHMARKS.md').read_text() == bench_page.page()
 
 
-def test_the_page_shows_every_result_with_its_commit(bench_page):
+def test_the_page_shows_every_result_with_its_commit():
     text = bench_page.page()
     results = sorted(RESULTS.glob('*.json'))
     assert len(results) > 20
@@ -32,7 +23,7 @@ def test_the_page_shows_every_result_with_its_commit(bench_page):
         assert f'commit {json.loads(path.read_text())["commit"][:12]}' in text
 
 
-def test_each_benchmark_has_one_entry_of_key_numbers(bench_page):
+def test_each_benchmark_has_one_entry_of_key_numbers():
     text = bench_page.KEY_NUMBERS.read_text()
     names = re.findall(r'^(\w+):', text, re.MULTILINE)
     assert sorted(set(names)) == sorted(names)  # of two, YAML takes the last without a word
@@ -42,15 +33,21 @@ def test_each_benchmark_has_one_entry_of_key_numbers(bench_page):
         assert (ROOT / picture).exists(), picture
 
 
-def test_every_picture_and_table_among_the_results_is_shown(bench_page):
+def test_every_picture_and_table_among_the_results_is_shown():
     text = bench_page.page()
     for path in RESULTS.glob('*.png'):
         assert f'(benchmarks/results/{path.name})' in text
-    for path in RESULTS.glob('*.md'):
-        assert path.read_text().strip() in text
+    for name in ('lab_advise', 'peer_simulators', 'plugin_stability', 'plugin_stock_vs_ours'):
+        table = bench_page.table_of(name, json.loads((RESULTS / f'{name}.json').read_text()))
+        assert table.count('\n|') > 5
+        assert table in text
 
 
-def test_a_folder_of_short_runs_gets_a_page_of_its_own(bench_page, tmp_path):
+def test_results_hold_nothing_that_follows_from_others():
+    assert {path.suffix for path in RESULTS.iterdir()} == {'.json', '.png', '.csv'}
+
+
+def test_a_folder_of_short_runs_gets_a_page_of_its_own(tmp_path):
     # of a run too short for all its key numbers, and of a benchmark without any
     (tmp_path / 'remus.json').write_text('{"cores": 2, "decay": {"yaw": 2e-3}}')
     (tmp_path / 'new.json').write_text(
@@ -78,18 +75,18 @@ def test_a_folder_of_short_runs_gets_a_page_of_its_own(bench_page, tmp_path):
         ({'a': None}, {'at': ['a'], 'target': '<= 1'}, None, False),
     ],
 )  # fmt: skip
-def test_the_worst_of_the_values_is_judged(bench_page, result, entry, value, met):
+def test_the_worst_of_the_values_is_judged(result, entry, value, met):
     shown = bench_page.Shown(result, {'what': 'it', **entry})
     assert shown.value == value
     assert shown.met is met
 
 
-def test_a_key_number_that_leads_nowhere_is_refused(bench_page):
+def test_a_key_number_that_leads_nowhere_is_refused():
     with pytest.raises(ValueError, match=r"a ratio: nothing at \['cost', 'b'\]"):
         bench_page.Shown({'cost': {'a': 1}}, {'what': 'a ratio', 'at': ['cost', 'b']})
 
 
-def test_rows_are_counted_that_hold(bench_page):
+def test_rows_are_counted_that_hold():
     result = {'rows': {'a': {'caught': ['RK4']}, 'b': {'caught': []}, 'c': {'caught': ['Euler']}}}
     entry = {'what': 'it', 'at': ['rows', '*', 'caught'], 'count': True, 'target': '>= 3'}
     assert bench_page.Shown(result, entry).value == 2

@@ -1,29 +1,15 @@
-import importlib.util
-from pathlib import Path
-
+import check_docs
+import doc_tables
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from test.support.paths import ROOT
 
 
-def script(name):
-    """Import a script of .ci, which is no package."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / '.ci' / f'{name}.py')
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture(scope='module')
-def check_docs():
-    return script('check_docs')
-
-
-def test_every_link_of_the_documentation_leads_somewhere(check_docs):
+def test_every_link_of_the_documentation_leads_somewhere():
     assert check_docs.broken_links(ROOT) == []
 
 
-def test_a_broken_link_is_found(check_docs, tmp_path):
+def test_a_broken_link_is_found(tmp_path):
     (tmp_path / 'doc').mkdir()
     (tmp_path / 'doc' / 'a.md').write_text('# Two words\n[ok](../README.md#head)')
     (tmp_path / 'README.md').write_text(
@@ -38,9 +24,8 @@ def test_a_broken_link_is_found(check_docs, tmp_path):
     ]
 
 
-@pytest.mark.parametrize('name', ['scenes', 'accuracy', 'parameters'])
+@pytest.mark.parametrize('name', doc_tables.TABLES)
 def test_a_table_is_up_to_date(name):
-    doc_tables = script('doc_tables')
     page, table = doc_tables.TABLES[name]
     text = (ROOT / page).read_text()
     # when this fails: make docs
@@ -49,4 +34,4 @@ def test_a_table_is_up_to_date(name):
 
 def test_a_table_without_marks_is_found():
     with pytest.raises(ValueError, match='no <!-- begin x -->'):
-        script('doc_tables').with_table('text', 'x', '| a |')
+        doc_tables.with_table('text', 'x', '| a |')

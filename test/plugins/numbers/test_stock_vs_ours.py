@@ -45,4 +45,4 @@ def test_row(rows, case):
 def test_table_shows_value_and_error():
     row = Row('case', 'm', 2.0, 3.0, 2.0 + 2e-6)
     expected = '| case [m] | 2 | 3 (50 %) | 2 (1e-06) |'
-    assert table([row]).splitlines()[-1] == expected
+    assert table({'rows': [row._asdict()]}).splitlines()[-1] == expected
