@@ -3,12 +3,12 @@
 import time
 
 import rclpy
-from nav_msgs.msg import Odometry
 from rclpy.context import Context
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
-from fluid_sim_ros.ros.polled_group import PolledGroup
+from fluid_sim_ros.messages.state_topics import ODOMETRY
+from fluid_sim_ros.messages.topic import Quality
+from fluid_sim_ros.ros.raw import PolledSubscription
 
 #: Messages that the middleware keeps between two calls of ``take``.
 _DEPTH = 5000
@@ -41,11 +41,7 @@ class Listener:
             signal_handler_options=SignalHandlerOptions.NO,
         )  # fmt: skip
         self._node = rclpy.create_node('demo_listener', context=self._context)
-        self._subscription = self._node.create_subscription(
-            Odometry, topic, lambda _: None,
-            QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.RELIABLE),
-            callback_group=PolledGroup(), raw=True,
-        )  # fmt: skip
+        self._subscription = PolledSubscription(self._node, ODOMETRY, topic, Quality(depth=_DEPTH))
         self.messages: list[bytes] = []
         self.sent_ns: list[int] = []
 
@@ -62,9 +58,9 @@ class Listener:
         """
         time.sleep(pause)
         before = len(self.messages)
-        while got := self._subscription.handle.take_message(Odometry, True):
+        while got := self._subscription.take_with_time():
             self.messages.append(got[0])
-            self.sent_ns.append(got[1]['source_timestamp'])
+            self.sent_ns.append(got[1])
         return len(self.messages) > before
 
     def close(self) -> None:

@@ -14,7 +14,8 @@ from typing import Any, ClassVar, Literal, Protocol
 
 from fluid_sim_ros.errors import needed_for
 from fluid_sim_ros.loop.pacing import Pacing, Source
-from fluid_sim_ros.messages.templates import joint_command, multi_array
+from fluid_sim_ros.messages.commands import JOINT_STATE, MULTI_ARRAY
+from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.simulation import Simulation
 
 #: The part that bridges; it has ``open_bridge`` with the arguments of the function below.
@@ -172,8 +173,11 @@ class VehicleCommands:
         self._simulation = simulation
         self._vehicle = vehicle
         self._surroundings = surroundings
-        self._thrust = multi_array(len(target.thrusters))
-        self._joints = joint_command(target.joints)
+        thrusts, joints = [0.0] * len(target.thrusters), [0.0] * len(target.joints)
+        self._thrust = Template.of(MULTI_ARRAY, {'data': thrusts}, ['data'])
+        self._joints = Template.of(
+            JOINT_STATE, {'name': target.joints, 'position': joints}, ['position']
+        )
         self.saturated = 0
 
     def set(self, thrusts: Sequence[float], joints: Sequence[float]) -> None:

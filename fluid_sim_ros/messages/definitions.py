@@ -24,9 +24,24 @@ def _all() -> dict[str, Definition]:
     return {name: Definition(entry['definition'], entry['hash']) for name, entry in types.items()}
 
 
+def known() -> list[str]:
+    """Return the message types whose definitions are kept, ``package/msg/Name``."""
+    return list(_all())
+
+
 def definition(message: str) -> Definition:
     """
-    Return the definition of a message type, ``package/msg/Name``.
+    Return the definition of a message type.
+
+    Parameters
+    ----------
+    message
+        ``package/msg/Name``.
+
+    Returns
+    -------
+    Definition
+        Its text and hash.
 
     Raises
     ------

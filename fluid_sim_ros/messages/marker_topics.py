@@ -1,13 +1,13 @@
 """A vehicle's geoms and force arrows as visualization markers, in the map frame."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.messages import templates
-from fluid_sim_ros.messages.templates import Template
-from fluid_sim_ros.messages.topic import StateTopic
+from fluid_sim_ros.messages.templates import Source, Template
+from fluid_sim_ros.messages.topic import LATCHED, StateTopic
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
@@ -30,49 +30,35 @@ _ARROWS = {'fluid': (nat.TOTAL, (0.1, 0.5, 0.9)), 'thrust': (nat.THRUST, (0.9, 0
 _ARROW_SIZE = (0.02, 0.04, 0.06)  # shaft, head diameter, head length [m]
 
 
-@dataclass(frozen=True)
-class Marker:
+def marker(
+    namespace: str, number: int, kind: int, extents: Sequence[float], colour: Sequence[float]
+) -> dict[str, Any]:
     """
-    What stays of one marker.
+    Return what stays of a visualization_msgs/Marker in the frame ``map``.
 
-    ``corners`` is the number of points that change; a marker without any changes its pose.
+    Parameters
+    ----------
+    namespace, number
+        Together its identity.
+    kind
+        Marker type.
+    extents
+        Its scale along x, y, z [m], shape (3,).
+    colour
+        Red, green, blue and opacity, 0 to 1, shape (4,).
+
+    Returns
+    -------
+    dict
+        Values by member, as for ``Template.of``.
+
     """
-
-    namespace: str
-    id: int
-    type: int
-    extents: tuple[float, ...]
-    colour: tuple[float, ...]
-    text: str = ''
-    corners: int = 0
-
-
-def marker_array(markers: list[Marker]) -> Template:
-    """
-    Return visualization_msgs/MarkerArray in the frame ``map``, with one block for each marker.
-
-    The block is its pose (position, orientation xyzw: 7), or its points (3 each).
-    """
-    template = Template(stamped=False).uint32(len(markers))
-    for marker in markers:
-        template.stamp().string('map').string(marker.namespace)
-        template.uint32(marker.id).uint32(marker.type).uint32(0)  # 0: add or modify
-        if marker.corners:
-            template.constants([0.0] * 6 + [1.0])
-        else:
-            template.doubles(7)
-        template.constants(marker.extents)
-        for value in marker.colour:
-            template.number('f', value)
-        template.uint32(0).uint32(0).number('B', 0)  # lives on; not locked to its frame
-        template.uint32(marker.corners)
-        if marker.corners:  # an empty sequence aligns nothing behind it
-            template.doubles(3 * marker.corners)
-        template.uint32(0).string('')  # no colours of points, no texture ...
-        template.uint32(0).uint32(0).string('').string('').uint32(0).uint32(0)
-        template.string(marker.text)
-        template.string('').string('').uint32(0).number('B', 0)  # ... and no mesh
-    return template.finish()
+    return {
+        'header.frame_id': 'map', 'ns': namespace, 'id': number, 'type': kind,
+        'scale': dict(zip('xyz', extents, strict=True)),
+        'color': dict(zip('rgba', colour, strict=True)),
+        'texture.header.stamp': {},  # there is no texture: its stamp stays 0
+    }  # fmt: skip
 
 
 class MarkerTopic(StateTopic):
@@ -82,10 +68,20 @@ class MarkerTopic(StateTopic):
     Force arrows start at the base_link origin; a force equal to the vehicle's weight in air is
     drawn 1 m long. Made for display: the node publishes them at their rate of wall time at most,
     and the numbers are rounded to single precision, which halves their share of a log.
+
+    Parameters
+    ----------
+    simulation, vehicle
+        What is drawn.
+    row
+        The vehicle's row of ``Simulation.observe``.
+    stamp
+        View of the present stamp.
+    period
+        Steps between two messages.
+
     """
 
-    depth = 1
-    transient_local = True
     for_display = True
 
     def __init__(
@@ -99,21 +95,20 @@ class MarkerTopic(StateTopic):
         self._quats_bg_wxyz = self._model.geom_quat[self._geoms]
         self._poses = np.zeros((len(self._geoms), 7))
         self._arrows = np.zeros((len(_ARROWS), 6))
-        template = marker_array(
-            [self._geom_marker(geom, vehicle.name) for geom in self._geoms]
-            + [
-                Marker('forces', i, _ARROW, _ARROW_SIZE, (*colour, 1.0), name, corners=2)
-                for i, (name, (_, colour)) in enumerate(_ARROWS.items())
-            ]
-        )
+        markers = [self._geom_marker(geom, vehicle.name) for geom in self._geoms]
+        sources: dict[str, Source] = {
+            f'markers[{i}].pose': pose for i, pose in enumerate(self._poses)
+        }
+        for i, (name, (_, colour)) in enumerate(_ARROWS.items()):
+            sources[f'markers[{len(markers)}].points'] = self._arrows[i]
+            arrow = marker('forces', i, _ARROW, _ARROW_SIZE, (*colour, 1.0))
+            markers.append({**arrow, 'text': name, 'points': [{}, {}]})
+        template = Template.of(MARKERS, {'markers': markers}, list(sources))
         copies = [(place, stamp) for place in template.stamps]
-        copies += [
-            (block, templates.as_bytes(numbers))
-            for block, numbers in zip(template.blocks, [*self._poses, *self._arrows], strict=True)
-        ]
+        copies += template.copies(list(sources.values()))
         super().__init__(
             f'{vehicle.name}/markers', MARKERS, template, period, copies,
-            needs_forces=True, prepare=self._look,
+            needs_forces=True, prepare=self._look, quality=LATCHED,
         )  # fmt: skip
 
     def _is_drawn(self, geom: int, base: int) -> bool:
@@ -125,15 +120,13 @@ class MarkerTopic(StateTopic):
             body = model.body_parentid[body]
         return bool(body == base)
 
-    def _geom_marker(self, geom: int, vehicle: str) -> Marker:
+    def _geom_marker(self, geom: int, vehicle: str) -> dict[str, Any]:
         model = self._model
         kind, factors = _SHAPES[int(model.geom_type[geom])]
         extents = np.array(factors, dtype=float) @ model.geom_size[geom]
         material = model.geom_matid[geom]
         rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
-        return Marker(
-            f'{vehicle}/geoms', geom, kind, tuple(extents.tolist()), tuple(rgba.tolist())
-        )
+        return marker(f'{vehicle}/geoms', geom, kind, extents.tolist(), rgba.tolist())
 
     def _look(self) -> None:
         """Take poses and forces from the present state."""

@@ -1,13 +1,14 @@
 """The topics of a vehicle's sensors: each new reading as one message, when it appears."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.messages import sensor_templates, templates
-from fluid_sim_ros.messages.topic import StateTopic
+from fluid_sim_ros.messages.templates import Source, StampBytes, Template
+from fluid_sim_ros.messages.topic import SENSOR, StateTopic
 from fluid_sim_ros.schema.sensors import Channel
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.sensors.airspeed import Airspeed
@@ -17,14 +18,11 @@ from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
 from fluid_sim_ros.sensors.sensor import Sensor
 from fluid_sim_ros.simulation import Simulation
 
-Samples = NDArray[np.float64] | NDArray[np.float32]
+Array = NDArray[np.float64] | NDArray[np.float32]
 
-IMU = 'sensor_msgs/msg/Imu'
-MAGNETIC_FIELD = 'sensor_msgs/msg/MagneticField'
-FLUID_PRESSURE = 'sensor_msgs/msg/FluidPressure'
-NAV_SAT_FIX = 'sensor_msgs/msg/NavSatFix'
-RANGE = 'sensor_msgs/msg/Range'
-VELOCITY = 'geometry_msgs/msg/TwistWithCovarianceStamped'
+_GEODETIC = ('latitude', 'longitude', 'altitude')
+#: Variance of what is not measured, for messages that cannot say so otherwise.
+UNKNOWN = 1e6
 
 
 class SensorTopic(StateTopic):
@@ -33,10 +31,21 @@ class SensorTopic(StateTopic):
 
     Its stamp is the time at which the reading was true, so with latency it lies in the past. A
     sensor may have several topics, and is sampled only while one of them is asked for.
-    """
 
-    reliable = False
-    depth = 5
+    Parameters
+    ----------
+    simulation, sensor
+        What is measured, and by what.
+    name, message
+        Topic name and message type.
+    constants
+        What stays in the message, as for ``Template.of``.
+    sources
+        Arrays of the sensor that members of the message follow.
+    prepare
+        Called before each message is made.
+
+    """
 
     def __init__(
         self,
@@ -44,20 +53,19 @@ class SensorTopic(StateTopic):
         sensor: Sensor,
         name: str,
         message: str,
-        template: templates.Template,
-        sources: list[Samples],
+        constants: Mapping[str, Any],
+        sources: Mapping[str, Source],
         prepare: Callable[[], None] | None = None,
     ) -> None:
         self._simulation, self._sensor = simulation, sensor
-        self._stamp = templates.StampBytes()
+        self._stamp = StampBytes()
+        constants = {'header.frame_id': sensor.frame, **constants}
+        template = Template.of(message, constants, list(sources))
         copies = [(template.stamps[0], self._stamp.view)]
-        copies += [
-            (block, templates.as_bytes(source))
-            for block, source in zip(template.blocks, sources, strict=True)
-        ]
+        copies += template.copies(list(sources.values()))
         super().__init__(
             name, message, template, math.gcd(sensor.period, sensor.latency), copies,
-            sensor.needs_forces, prepare, appears_later=sensor.latency > 0,
+            sensor.needs_forces, prepare, SENSOR, appears_later=sensor.latency > 0,
         )  # fmt: skip
 
     def data(self) -> bytes:
@@ -78,51 +86,66 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
         sensor: Sensor,
         name: str,
         message: str,
-        template: templates.Template,
-        *sources: Samples,
+        constants: Mapping[str, Any],
+        sources: Mapping[str, Source],
         prepare: Callable[[], None] | None = None,
     ) -> None:
         full = f'{vehicle}/{name}'
-        topics.append(
-            SensorTopic(simulation, sensor, full, message, template, list(sources), prepare)
-        )
-
-    def variance(sensor: Sensor, channel: Channel) -> float:
-        return channel.variance(sensor.config.rate)
+        topics.append(SensorTopic(simulation, sensor, full, message, constants, sources, prepare))
 
     def pressure(sensor: Barometer | WaterPressure | Airspeed, name: str) -> None:
-        template = sensor_templates.fluid_pressure(
-            sensor.frame, variance(sensor, sensor.config.pressure)
-        )
-        add(sensor, name, FLUID_PRESSURE, template, sensor.values)
+        add(
+            sensor, name, 'sensor_msgs/msg/FluidPressure',
+            {'variance': _variance(sensor, sensor.config.pressure)},
+            {'fluid_pressure': sensor.values},
+        )  # fmt: skip
 
-    def distance(sensor: Rangefinder | Dvl, name: str, channel: Channel, value: Samples) -> None:
+    def distance(sensor: Rangefinder | Dvl, name: str, channel: Channel, value: Array) -> None:
         low, high = channel.range or (0.0, math.inf)
-        by_sound = isinstance(sensor, Dvl)
-        template = sensor_templates.distance(
-            sensor.frame, by_sound, low, high, variance(sensor, channel)
-        )
         single = np.zeros(1, dtype=np.float32)
         add(
-            sensor, name, RANGE, template, single,
+            sensor, name, 'sensor_msgs/msg/Range',
+            {
+                'radiation_type': 0 if isinstance(sensor, Dvl) else 1,  # ultrasound, infrared
+                'min_range': low, 'max_range': high, 'variance': _variance(sensor, channel),
+            },
+            {'range': single},
             prepare=lambda: np.copyto(single, value, casting='same_kind'),
         )  # fmt: skip
 
-    def velocity(sensor: Gnss | Dvl, name: str, frame: str, value: Samples) -> None:
-        template = sensor_templates.velocity(frame, variance(sensor, sensor.config.velocity))
-        add(sensor, name, VELOCITY, template, value)
+    def velocity(sensor: Gnss | Dvl, name: str, frame: str, value: Array) -> None:
+        add(
+            sensor, name, 'geometry_msgs/msg/TwistWithCovarianceStamped',
+            {
+                'header.frame_id': frame,
+                'twist.covariance': _diagonal(
+                    *[_variance(sensor, sensor.config.velocity)] * 3, *[UNKNOWN] * 3
+                ),
+            },
+            {'twist.twist.linear': value},
+        )  # fmt: skip
 
     if imu := suite.imu:
-        file = imu.config
-        template = sensor_templates.imu(
-            imu.frame, variance(imu, file.gyroscope), variance(imu, file.accelerometer)
-        )
-        add(imu, 'imu/data', IMU, template, imu.angular_velocity, imu.specific_force)
+        add(
+            imu, 'imu/data', 'sensor_msgs/msg/Imu',
+            {
+                'orientation_covariance': _diagonal(-1.0, 0.0, 0.0),  # there is no orientation
+                'angular_velocity_covariance': _diagonal(
+                    *[_variance(imu, imu.config.gyroscope)] * 3
+                ),
+                'linear_acceleration_covariance': _diagonal(
+                    *[_variance(imu, imu.config.accelerometer)] * 3
+                ),
+            },
+            {'angular_velocity': imu.angular_velocity, 'linear_acceleration': imu.specific_force},
+        )  # fmt: skip
     if compass := suite.magnetometer:
-        template = sensor_templates.magnetic_field(
-            compass.frame, variance(compass, compass.config.field)
-        )
-        add(compass, 'imu/mag', MAGNETIC_FIELD, template, compass.field)
+        variance = _variance(compass, compass.config.field)
+        add(
+            compass, 'imu/mag', 'sensor_msgs/msg/MagneticField',
+            {'magnetic_field_covariance': _diagonal(*[variance] * 3)},
+            {'magnetic_field': compass.field},
+        )  # fmt: skip
     if suite.barometer:
         pressure(suite.barometer, 'pressure')
     if suite.pressure:
@@ -130,11 +153,17 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
     if suite.airspeed:
         pressure(suite.airspeed, 'airspeed/pressure')
     if gnss := suite.gnss:
-        template = sensor_templates.nav_sat_fix(
-            gnss.frame, variance(gnss, gnss.config.horizontal),
-            variance(gnss, gnss.config.vertical),
+        horizontal = _variance(gnss, gnss.config.horizontal)
+        vertical = _variance(gnss, gnss.config.vertical)
+        add(
+            gnss, 'gps/fix', 'sensor_msgs/msg/NavSatFix',
+            {
+                'status': {'status': 0, 'service': 1},  # a fix, by GPS
+                'position_covariance': _diagonal(horizontal, horizontal, vertical),
+                'position_covariance_type': 2,  # the diagonal is known
+            },
+            {name: gnss.geodetic[i : i + 1] for i, name in enumerate(_GEODETIC)},
         )  # fmt: skip
-        add(gnss, 'gps/fix', NAV_SAT_FIX, template, gnss.geodetic)
         velocity(gnss, 'gps/vel', 'map', gnss.velocity_w)
     if finder := suite.rangefinder:
         distance(finder, 'range', finder.config.distance, finder.values)
@@ -142,3 +171,13 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
         velocity(dvl, 'dvl/twist', dvl.frame, dvl.velocity)
         distance(dvl, 'dvl/altitude', dvl.config.altitude, dvl.values[3:])
     return topics
+
+
+def _variance(sensor: Sensor, channel: Channel) -> float:
+    return channel.variance(sensor.config.rate)
+
+
+def _diagonal(*values: float) -> list[float]:
+    """Return a covariance matrix, row by row."""
+    numbers: list[float] = np.diag(values).ravel().tolist()
+    return numbers

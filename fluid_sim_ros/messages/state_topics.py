@@ -7,11 +7,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.messages import templates
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
 from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
-from fluid_sim_ros.messages.topic import StateTopic
+from fluid_sim_ros.messages.templates import Source, StampBytes, Template
+from fluid_sim_ros.messages.topic import NEWEST, STATE, Quality, StateTopic
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
@@ -59,7 +59,7 @@ class StateTopics:
     def __init__(self, simulation: Simulation, settings: Mapping[str, Any]) -> None:
         self._simulation = simulation
         self._settings = settings
-        self._stamp = templates.StampBytes()
+        self._stamp = StampBytes()
         self._forces_known = False
         rows = simulation.observe(forces=True)
         self.topics: list[StateTopic] = []
@@ -67,7 +67,7 @@ class StateTopics:
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
         self._add_transforms(list(simulation.vehicles), rows)
-        self._add('/clock', CLOCK, templates.clock(), 'clock.rate', [])
+        self._add('/clock', CLOCK, 'clock.rate', {}, {}, quality=NEWEST)
         self.topics.sort(key=lambda topic: topic.needs_forces)
 
     def restart(self) -> None:
@@ -95,30 +95,35 @@ class StateTopics:
 
     def _add_vehicle(self, vehicle: Vehicle, row: Array) -> None:
         name, settings = vehicle.name, self._settings
-        velocity = row[nat.LINEAR_VELOCITY.start : nat.ANGULAR_VELOCITY.stop]
-        odometry = templates.odometry(
-            name, settings['odom.pose_covariance'], settings['odom.twist_covariance']
-        )
-        position, orientation, twist = odometry.blocks
-        self._add(f'{name}/odom', ODOMETRY, odometry, 'odom.rate', [
-            (position, templates.as_bytes(row[nat.POSITION])),
-            *_orientation(orientation, row[nat.QUATERNION]),
-            (twist, templates.as_bytes(velocity)),
-        ])  # fmt: skip
+        place = _pose(row)
+        self._add(
+            f'{name}/odom', ODOMETRY, 'odom.rate',
+            {
+                'header.frame_id': f'{name}/odom',
+                'child_frame_id': f'{name}/base_link',
+                'pose.covariance': np.diag(settings['odom.pose_covariance']).ravel(),
+                'twist.covariance': np.diag(settings['odom.twist_covariance']).ravel(),
+            },
+            {
+                'pose.pose.position': place[0],
+                'pose.pose.orientation': place[1],
+                'twist.twist': row[nat.LINEAR_VELOCITY.start : nat.ANGULAR_VELOCITY.stop],
+            },
+        )  # fmt: skip
         columns = {'total': nat.TOTAL, 'thrust': nat.THRUST}
         columns |= {term: nat.term_columns(term) for term in nat.TERMS}
-        for term, place in columns.items():
-            template = templates.wrench(f'{name}/base_link')
-            copies = [(template.blocks[0], templates.as_bytes(row[place]))]
+        for term, places in columns.items():
             self._add(
-                f'{name}/wrench/{term}', WRENCH, template, 'wrench.rate', copies,
+                f'{name}/wrench/{term}', WRENCH, 'wrench.rate',
+                {'header.frame_id': f'{name}/base_link'}, {'wrench': row[places]},
                 needs_forces=True,
             )  # fmt: skip
         # of the fluid that the base_link origin is in, where a scene has two
         for stream in self._simulation.streams:
-            template = templates.twist('map')
-            copies = [(template.blocks[0], templates.as_bytes(row[nat.MEDIUM_VELOCITY]))]
-            self._add(f'{name}/medium/{stream}', TWIST, template, 'medium.rate', copies)
+            self._add(
+                f'{name}/medium/{stream}', TWIST, 'medium.rate',
+                {'header.frame_id': 'map'}, {'twist.linear': row[nat.MEDIUM_VELOCITY]},
+            )  # fmt: skip
         self._add_joint_states(vehicle)
         # for eyes: a whole number of steps, at most at the rate
         steps = 1.0 / (settings['markers.rate'] * self._simulation.timestep)
@@ -128,28 +133,21 @@ class StateTopics:
 
     def _add_transforms(self, vehicles: Sequence[str], rows: Array) -> None:
         """Place each vehicle in the map by way of its odometry frame, and its sensors on it."""
-        parents: dict[str, str] = {}
-        for name in vehicles:
-            parents |= {f'{name}/odom': 'map', f'{name}/base_link': f'{name}/odom'}
-            parents |= {s.frame: f'{name}/base_link' for s in self.suites[name].sensors}
-        template = templates.transforms(parents)
-        pairs = zip(template.blocks[::2], template.blocks[1::2], strict=True)
-        blocks = dict(zip(parents, pairs, strict=True))
-        copies = []
+        transforms: list[dict[str, Any]] = []
+        sources: dict[str, Source] = {}
         for name, row in zip(vehicles, rows, strict=True):
-            _, same = blocks[f'{name}/odom']
-            same[24:] = templates.as_bytes(np.array([1.0]))
-            position, orientation = blocks[f'{name}/base_link']
-            copies += [
-                (position, templates.as_bytes(row[nat.POSITION])),
-                *_orientation(orientation, row[nat.QUATERNION]),
-            ]
+            transforms.append(_transform('map', f'{name}/odom'))
+            moving = f'transforms[{len(transforms)}].transform'
+            sources[f'{moving}.translation'], sources[f'{moving}.rotation'] = _pose(row)
+            transforms.append(_transform(f'{name}/odom', f'{name}/base_link'))
             for sensor in self.suites[name].sensors:
-                place, turn = blocks[sensor.frame]
-                place[:] = templates.as_bytes(sensor.mount.position_b)
-                for target, source in _orientation(turn, sensor.frame_quat_bs):
-                    target[:] = source
-        self._add('/tf', TRANSFORMS, template, 'tf.rate', copies)
+                place, turn = sensor.mount.position_b, sensor.frame_quat_bs
+                transforms.append({
+                    **_transform(f'{name}/base_link', sensor.frame),
+                    'transform.translation': dict(zip('xyz', place, strict=True)),
+                    'transform.rotation': dict(zip('wxyz', turn, strict=True)),
+                })  # fmt: skip
+        self._add('/tf', TRANSFORMS, 'tf.rate', {'transforms': transforms}, sources)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:
         """
@@ -162,7 +160,6 @@ class StateTopics:
         names = [model.joint(j).name or f'joint{j}' for j in joints] + list(vehicle.thrusters)
         if not names:
             return
-        template = templates.joint_state(names)
         numbers = np.zeros((3, len(names)))
         qpos_places, dof_places = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
         count = len(joints)
@@ -183,39 +180,44 @@ class StateTopics:
             numbers[2, :count] = data.qfrc_actuator[dof_places]
             numbers[2, count:] = data.actuator_force[vehicle.thruster_ids]
 
-        copies = [
-            (block, templates.as_bytes(numbers[i])) for i, block in enumerate(template.blocks)
-        ]
+        rows = dict(zip(('position', 'velocity', 'effort'), numbers, strict=True))
         self._add(
-            f'{vehicle.name}/joint_states', JOINT_STATE, template, 'joint_states.rate', copies,
-            needs_forces=True, prepare=prepare,
+            f'{vehicle.name}/joint_states', JOINT_STATE, 'joint_states.rate',
+            {'name': names, **rows}, rows, needs_forces=True, prepare=prepare,
         )  # fmt: skip
 
     def _add(
         self,
         name: str,
         message: str,
-        template: templates.Template,
         rate: str,
-        copies: list[tuple[memoryview, memoryview]],
+        constants: Mapping[str, Any],
+        sources: Mapping[str, Source],
         needs_forces: bool = False,
         prepare: Callable[[], None] | None = None,
+        quality: Quality = STATE,
     ) -> None:
+        """Add a topic: what stays in its message, and the arrays that each member follows."""
         period = period_steps(
             self._settings[rate], self._simulation.timestep, f"parameter '{rate}'"
         )
-        copies = [(place, self._stamp.view) for place in template.stamps] + copies
+        template = Template.of(message, constants, list(sources))
+        copies = [(place, self._stamp.view) for place in template.stamps]
+        copies += template.copies(list(sources.values()))
         self.topics.append(
-            StateTopic(name, message, template, period, copies, needs_forces, prepare)
+            StateTopic(name, message, template, period, copies, needs_forces, prepare, quality)
         )
 
 
-def _orientation(block: memoryview, quat_wxyz: Array) -> list[tuple[memoryview, memoryview]]:
-    """Return what to copy where: wxyz inside, xyzw in messages."""
-    return [
-        (block[:24], templates.as_bytes(quat_wxyz[1:])),
-        (block[24:], templates.as_bytes(quat_wxyz[:1])),
-    ]
+def _pose(row: Array) -> tuple[Array, tuple[Array, Array]]:
+    """Return a row's position and orientation: wxyz inside, xyzw in messages."""
+    quat_wxyz = row[nat.QUATERNION]
+    return row[nat.POSITION], (quat_wxyz[1:], quat_wxyz[:1])
+
+
+def _transform(parent: str, child: str) -> dict[str, Any]:
+    """Return a geometry_msgs/TransformStamped; without more, both frames are the same."""
+    return {'header.frame_id': parent, 'child_frame_id': child}
 
 
 def _is_single_joint(model: mujoco.MjModel, joint: int, base: int) -> bool:

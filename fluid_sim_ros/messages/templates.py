@@ -9,97 +9,231 @@ publishing copies the present numbers over it and hands the bytes to the middlew
 
 import struct
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.messages.members import NUMBERS, Member, message_type
 
 _STAMP = struct.Struct('<iI')
 #: Plain CDR, little endian.
 _HEADER = b'\x00\x01\x00\x00'
+_TIME = 'builtin_interfaces/Time'
+
+#: Numbers that follow each other in a block: one contiguous array, or several.
+Source = NDArray[Any] | tuple[NDArray[Any], ...]
 
 
 class Template:
     """
-    The bytes of one message, built member by member; a stamp stands first unless told otherwise.
+    The bytes of one message; made by ``Template.of``.
 
-    ``stamps`` and ``blocks`` are views of its stamps and of its runs of numbers that change, in
-    the order of the ``stamp``, ``doubles`` and ``floats`` calls; they exist after ``finish``.
+    Attributes
+    ----------
+    stamps
+        Views of its stamps (every builtin_interfaces/Time that is not given), in the order of the
+        definition.
+    blocks
+        Views of its runs of numbers that change, in the order in which they were asked for.
+    padding
+        Offsets of the bytes between members, which are zero.
+
     """
 
-    def __init__(self, stamped: bool = True) -> None:
-        self._buffer = bytearray(_HEADER)
-        self._stamps: list[int] = []
-        self._places: list[tuple[int, int]] = []
-        self.padding: list[int] = []
-        self.blocks: list[memoryview] = []
-        self.stamps: list[memoryview] = []
-        if stamped:
-            self.stamp()
+    def __init__(
+        self,
+        buffer: bytearray,
+        stamps: Sequence[int],
+        blocks: Sequence[tuple[int, int]],
+        padding: Sequence[int],
+    ) -> None:
+        self._buffer = buffer
+        self.padding = padding
+        view = memoryview(buffer)
+        self.stamps = [view[start : start + _STAMP.size] for start in stamps]
+        self.blocks = [view[start:stop] for start, stop in blocks]
 
-    def _align(self, size: int) -> None:
-        gap = -(len(self._buffer) - len(_HEADER)) % size
-        self.padding += range(len(self._buffer), len(self._buffer) + gap)
-        self._buffer += bytes(gap)
+    @classmethod
+    def of(
+        cls, message: str, constants: Mapping[str, Any] | None = None, blocks: Sequence[str] = ()
+    ) -> 'Template':
+        """
+        Return the template of a message type.
 
-    def stamp(self) -> 'Template':
-        """Append a stamp that changes."""
-        self._align(4)
-        self._stamps.append(len(self._buffer))
-        self._buffer += bytes(_STAMP.size)
-        return self
+        Parameters
+        ----------
+        message
+            Message type, ``package/msg/Name``.
+        constants
+            Values of members by their dotted names, such as ``header.frame_id``; a message may be
+            given as a mapping, a sequence of messages as a list of mappings. What is not given
+            has the default of the definition: 0, the empty string, the empty sequence.
+        blocks
+            Dotted names of the members whose numbers change, such as ``pose.pose.position`` or
+            ``markers[0].points``; a sequence has the length that ``constants`` gives it.
 
-    def uint32(self, value: int) -> 'Template':
-        """Append an unsigned 32-bit integer (also a sequence's length)."""
-        self._align(4)
-        self._buffer += struct.pack('<I', value)
-        return self
+        Returns
+        -------
+        Template
+            Its bytes, and views of what changes.
 
-    def number(self, code: str, value: float) -> 'Template':
-        """Append a number that stays, of a type of ``struct``."""
-        size = struct.calcsize(code)
-        self._align(size)
-        self._buffer += struct.pack('<' + code, value)
-        return self
+        Raises
+        ------
+        ConfigError
+            If the definition is not kept, there is no such member, a value does not fit, or the
+            numbers of a block do not lie side by side.
 
-    def string(self, value: str) -> 'Template':
-        """Append a string."""
-        text = value.encode() + b'\x00'
-        self.uint32(len(text))
-        self._buffer += text
-        return self
-
-    def doubles(self, count: int) -> 'Template':
-        """Append doubles that change: a block."""
-        return self._block(8, count)
-
-    def floats(self, count: int) -> 'Template':
-        """Append single-precision numbers that change: a block."""
-        return self._block(4, count)
-
-    def _block(self, size: int, count: int) -> 'Template':
-        self._align(size)
-        self._places.append((len(self._buffer), size * count))
-        self._buffer += bytes(size * count)
-        return self
-
-    def constants(self, values: Sequence[float]) -> 'Template':
-        """Append doubles that stay."""
-        self._align(8)
-        self._buffer += struct.pack(f'<{len(values)}d', *values)
-        return self
-
-    def finish(self) -> 'Template':
-        """End the message; its size is fixed from here on."""
-        view = memoryview(self._buffer)
-        self.stamps = [view[start : start + _STAMP.size] for start in self._stamps]
-        self.blocks = [view[start : start + size] for start, size in self._places]
-        return self
+        """
+        writer = _Writer(message, constants or {}, blocks)
+        return cls(
+            writer.buffer, writer.stamps, [writer.blocks[name] for name in blocks], writer.padding
+        )
 
     def bytes(self) -> bytes:
         """Return the message as it now stands."""
         return bytes(self._buffer)
+
+    def copies(self, sources: Sequence[Source]) -> list[tuple[memoryview, memoryview]]:
+        """
+        Return what to copy where, so that the blocks hold the present values of arrays.
+
+        Parameters
+        ----------
+        sources
+            One per block: contiguous arrays of the block's own type of number.
+
+        Returns
+        -------
+        list
+            Pairs of a target in this template and a source, both views.
+
+        Raises
+        ------
+        ConfigError
+            If a source has another size than its block.
+
+        """
+        pairs = []
+        for block, source in zip(self.blocks, sources, strict=True):
+            start = 0
+            for numbers in source if isinstance(source, tuple) else (source,):
+                view = as_bytes(numbers)
+                pairs.append((block[start : start + len(view)], view))
+                start += len(view)
+            if start != len(block):
+                raise ConfigError(f'a block of {len(block)} bytes was given {start} bytes')
+        return pairs
+
+
+class _Writer:
+    """Writes a message once, noting where stamps, blocks and padding lie."""
+
+    def __init__(self, message: str, constants: Mapping[str, Any], blocks: Sequence[str]) -> None:
+        self._message = message
+        self._types = message_type(message)
+        self._given = dict(constants)
+        self._wanted = set(blocks)
+        self.buffer = bytearray(_HEADER)
+        self.stamps: list[int] = []
+        self.blocks: dict[str, tuple[int, int]] = {}
+        self.padding: list[int] = []
+        self._numbers: list[tuple[int, int]] = []  # where runs of numbers begin and end
+        self._open = 0  # blocks within which we are: only numbers may stand there
+        self._write_members('', '', '')
+        unknown = [*self._given, *(self._wanted - self.blocks.keys())]
+        if unknown:
+            has = listed(member.name for member in self._types.members()[1])
+            raise ConfigError(f'{message} has no member {listed(unknown)}; it has: {has}')
+
+    def _write_members(self, kind: str, owner: str, prefix: str) -> None:
+        owner, members = self._types.members(kind, owner)
+        for member in members:
+            name = f'{prefix}{member.name}'
+            if name not in self._wanted:
+                self._write(member, owner, name)
+                continue
+            before, self._open = len(self._numbers), self._open + 1
+            self._write(member, owner, name)
+            self._open -= 1
+            self.blocks[name] = self._span(name, self._numbers[before:])
+
+    def _span(self, name: str, runs: Sequence[tuple[int, int]]) -> tuple[int, int]:
+        """Return where a block begins and ends."""
+        for (_, stop), (start, _) in pairwise(runs):
+            if stop != start:
+                raise self._fault(name, 'its numbers do not lie side by side')
+        return (runs[0][0], runs[-1][1]) if runs else (len(self.buffer), len(self.buffer))
+
+    def _write(self, member: Member, owner: str, name: str) -> None:
+        value = self._given.pop(name, None)
+        if value is None:
+            value = member.default_value()
+        if member.length is None:
+            self._write_one(member.type, owner, name, value)
+            return
+        values = () if value is None else value
+        if member.length < 0:
+            self._pack('I', [len(values)])
+        elif value is None:
+            values = (None,) * member.length
+        elif len(values) != member.length:
+            raise self._fault(name, f'{len(values)} values, needs {member.length}')
+        if member.type in NUMBERS:
+            self._write_numbers(
+                name, NUMBERS[member.type], [0 if v is None else v for v in values]
+            )
+            return
+        for i, item in enumerate(values):
+            self._write_one(member.type, owner, f'{name}[{i}]', item)
+
+    def _write_one(self, kind: str, owner: str, name: str, value: Any) -> None:
+        if kind in NUMBERS:
+            self._write_numbers(name, NUMBERS[kind], [0 if value is None else value])
+        elif kind == 'string':
+            self._only_numbers(name)
+            text = (value or '').encode() + b'\x00'
+            self._pack('I', [len(text)])
+            self.buffer += text
+        elif value is None and kind == _TIME:
+            self._only_numbers(name)
+            self._align(4)
+            self.stamps.append(len(self.buffer))
+            self.buffer += bytes(_STAMP.size)
+        else:
+            for key, item in (value or {}).items():
+                self._given[f'{name}.{key}'] = item
+            self._write_members(kind, owner, f'{name}.')
+
+    def _only_numbers(self, name: str) -> None:
+        if self._open:
+            raise self._fault(name, 'stands in a block, which holds only numbers')
+
+    def _write_numbers(self, name: str, code: str, values: Sequence[float]) -> None:
+        if not values:  # an empty sequence aligns nothing behind it
+            return
+        try:
+            start = self._pack(code, values)
+        except struct.error as error:
+            raise self._fault(name, str(error)) from None
+        self._numbers.append((start, len(self.buffer)))
+
+    def _pack(self, code: str, values: Sequence[float]) -> int:
+        """Write numbers of one type; return where they begin."""
+        data = struct.pack(f'<{len(values)}{code}', *values)
+        self._align(len(data) // len(values))
+        start = len(self.buffer)
+        self.buffer += data
+        return start
+
+    def _align(self, size: int) -> None:
+        gap = -(len(self.buffer) - len(_HEADER)) % size
+        self.padding += range(len(self.buffer), len(self.buffer) + gap)
+        self.buffer += bytes(gap)
+
+    def _fault(self, name: str, fault: str) -> ConfigError:
+        return ConfigError(f'{self._message}: {name}: {fault}')
 
 
 class StampBytes:
@@ -110,83 +244,31 @@ class StampBytes:
         self.view = memoryview(self._buffer)
 
     def set(self, time_ns: int) -> None:
-        """Hold a time [ns]."""
+        """
+        Hold a time.
+
+        Parameters
+        ----------
+        time_ns
+            [ns].
+
+        """
         _STAMP.pack_into(self._buffer, 0, *divmod(time_ns, 1_000_000_000))
 
 
-def as_bytes(numbers: Array | NDArray[np.float32]) -> memoryview:
-    """Return a view of a contiguous array's bytes that follows the array's values."""
+def as_bytes(numbers: NDArray[Any]) -> memoryview:
+    """
+    Return a view of an array's bytes that follows the array's values.
+
+    Parameters
+    ----------
+    numbers
+        Contiguous array, any shape.
+
+    Returns
+    -------
+    memoryview
+        Its bytes.
+
+    """
     return memoryview(numbers.reshape(-1)).cast('B')  # type: ignore[arg-type]
-
-
-def odometry(
-    vehicle: str, pose_variance: Sequence[float], twist_variance: Sequence[float]
-) -> Template:
-    """Return nav_msgs/Odometry with blocks: position (3), orientation xyzw (4), twist (6)."""
-    return (
-        Template()
-        .string(f'{vehicle}/odom')
-        .string(f'{vehicle}/base_link')
-        .doubles(3)
-        .doubles(4)
-        .constants(np.diag(pose_variance).ravel().tolist())
-        .doubles(6)
-        .constants(np.diag(twist_variance).ravel().tolist())
-        .finish()
-    )
-
-
-def wrench(frame: str) -> Template:
-    """Return geometry_msgs/WrenchStamped with one block: force and torque (6)."""
-    return Template().string(frame).doubles(6).finish()
-
-
-def twist(frame: str) -> Template:
-    """Return geometry_msgs/TwistStamped with one block: linear velocity (3)."""
-    return Template().string(frame).doubles(3).constants([0.0, 0.0, 0.0]).finish()
-
-
-def clock() -> Template:
-    """Return rosgraph_msgs/Clock."""
-    return Template().finish()
-
-
-def joint_state(names: Sequence[str]) -> Template:
-    """Return sensor_msgs/JointState with blocks: position, velocity, effort (one per name)."""
-    template = Template().string('').uint32(len(names))
-    for name in names:
-        template.string(name)
-    for _ in range(3):
-        template.uint32(len(names)).doubles(len(names))
-    return template.finish()
-
-
-def transforms(children: Mapping[str, str]) -> Template:
-    """
-    Return tf2_msgs/TFMessage with a transform per child -> parent frame.
-
-    Blocks: translation (3) and rotation xyzw (4) of each.
-    """
-    template = Template(stamped=False).uint32(len(children))
-    for child, parent in children.items():
-        template.stamp().string(parent).string(child).doubles(3).doubles(4)
-    return template.finish()
-
-
-def joint_command(names: Sequence[str]) -> Template:
-    """Return sensor_msgs/JointState that commands positions: one block (one per name)."""
-    template = Template().string('').uint32(len(names))
-    for name in names:
-        template.string(name)
-    template.uint32(len(names))
-    if names:  # an empty sequence aligns nothing behind it
-        template.doubles(len(names))
-    return template.uint32(0).uint32(0).finish()
-
-
-def multi_array(size: int) -> Template:
-    """Return std_msgs/Float64MultiArray without a layout, with one block (of ``size``)."""
-    template = Template(stamped=False).uint32(0).uint32(0).uint32(size)
-    if size:
-        template.doubles(size)
-    return template.finish()

@@ -2,9 +2,37 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from fluid_sim_ros.messages.templates import Template
+
+
+class Quality(NamedTuple):
+    """
+    Quality of service of a topic.
+
+    Attributes
+    ----------
+    reliable
+        Every message arrives; otherwise some may be lost (best effort).
+    depth
+        Number of messages that are kept for slow readers.
+    transient_local
+        Who subscribes later gets the last messages, too.
+
+    """
+
+    reliable: bool = True
+    depth: int = 10
+    transient_local: bool = False
+
+
+#: States; the newest of something (the clock, commands); sensors; the newest, also for who comes
+#: later.
+STATE = Quality()
+NEWEST = Quality(depth=1)
+SENSOR = Quality(reliable=False, depth=5)
+LATCHED = Quality(depth=1, transient_local=True)
 
 
 @dataclass
@@ -18,16 +46,22 @@ class StateTopic:
         Relative name, or absolute with a leading slash.
     type
         Message type, ``package/msg/Name``.
+    template
+        The message.
     period
         Steps between two messages.
+    copies
+        What is copied into the template for each message: pairs of target and source.
     needs_forces
         Its numbers need ``observe(forces=True)``.
-    reliable, depth, transient_local
+    prepare
+        Called before the copies.
+    quality
         Quality of service that is offered.
-    for_display
-        Published at its rate of wall time at most, and also while the simulation stands.
     appears_later
         What it measures at one due step may stand in the message of another.
+    for_display
+        Published at its rate of wall time at most, and also while the simulation stands.
 
     """
 
@@ -38,12 +72,10 @@ class StateTopic:
     copies: list[tuple[memoryview, memoryview]]
     needs_forces: bool = False
     prepare: Callable[[], None] | None = None
-
-    reliable: ClassVar[bool] = True
-    depth: ClassVar[int] = 10
-    transient_local: ClassVar[bool] = False
-    for_display: ClassVar[bool] = False
+    quality: Quality = STATE
     appears_later: bool = False
+
+    for_display: ClassVar[bool] = False
 
     def data(self) -> bytes:
         """Return the message of the state observed last, or nothing if there is none."""

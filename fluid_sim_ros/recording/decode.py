@@ -5,7 +5,6 @@ Messages of a topic rarely differ in more than their numbers, so the place of ea
 once per layout and then read from all messages at the same time.
 """
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,25 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.messages.members import NUMBERS, MessageType
 from fluid_sim_ros.recording.description import LogError
 
-_SIZES = {
-    'bool': '?', 'byte': 'u1', 'char': 'u1', 'float32': 'f4', 'float64': 'f8', 'int8': 'i1',
-    'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2', 'int32': 'i4', 'uint32': 'u4', 'int64': 'i8',
-    'uint64': 'u8',
-}  # fmt: skip
 _HEADER_SIZE = 4
-_SEPARATOR = re.compile(r'^={10,}$', re.MULTILINE)
-_FIELD = re.compile(r'^([A-Za-z][\w/]*)(?:<=\d+)?(?:\[(<=)?(\d*)\])?\s+([A-Za-z]\w*)\s*(.*)$')
-
-
-@dataclass(frozen=True)
-class Field:
-    """A member: type, name, and its length where it is a fixed array, or -1 for a sequence."""
-
-    type: str
-    name: str
-    length: int | None
 
 
 @dataclass(frozen=True)
@@ -56,24 +41,7 @@ class Schema:
     """
 
     def __init__(self, definition: str) -> None:
-        self._types: dict[str, list[Field]] = {}
-        for number, part in enumerate(_SEPARATOR.split(definition)):
-            name, body = '', part
-            if number:
-                head, _, body = part.strip().partition('\n')
-                name = head.removeprefix('MSG:').strip().replace('/msg/', '/')
-            self._types[name] = [f for f in map(_field, body.splitlines()) if f]
-
-    def _members(self, kind: str, owner: str) -> tuple[str, list[Field]]:
-        kind = kind.replace('/msg/', '/')
-        package = owner.partition('/')[0]
-        for name in (kind, f'{package}/{kind}'):
-            if name in self._types:
-                return name, self._types[name]
-        for name, fields in self._types.items():  # a type of the message's own package
-            if name.rpartition('/')[2] == kind:
-                return name, fields
-        raise LogError(f"the definition lacks the type '{kind}'")
+        self._types = MessageType(definition)
 
     def layout(self, data: bytes) -> tuple[list[Place], list[int]]:
         """
@@ -100,37 +68,29 @@ class Schema:
         return walk.places, walk.lengths
 
     def _walk(self, walk: '_Walk', kind: str, owner: str, prefix: str) -> None:
-        owner, fields = (kind, self._types['']) if not kind else self._members(kind, owner)
-        for field in fields:
+        try:
+            owner, members = self._types.members(kind, owner)
+        except ConfigError as error:
+            raise LogError(str(error)) from None
+        for field in members:
             name = f'{prefix}{field.name}'
             if field.length is None:
                 self._item(walk, field.type, owner, name)
                 continue
             count = walk.length() if field.length < 0 else field.length
-            if field.type in _SIZES and count:
-                walk.number(name, _SIZES[field.type], count)
+            if field.type in NUMBERS and count:
+                walk.number(name, NUMBERS[field.type], count)
                 continue
             for i in range(count):
                 self._item(walk, field.type, owner, f'{name}[{i}]')
 
     def _item(self, walk: '_Walk', kind: str, owner: str, name: str) -> None:
-        if kind in _SIZES:
-            walk.number(name, _SIZES[kind], None)
+        if kind in NUMBERS:
+            walk.number(name, NUMBERS[kind], None)
         elif kind == 'string':
             walk.string(name)
         else:
             self._walk(walk, kind, owner, f'{name}.')
-
-
-def _field(line: str) -> Field | None:
-    line = line.partition('#')[0].strip()
-    match = _FIELD.match(line)
-    if not match or match[5].startswith('='):
-        return None
-    kind, bounded, count, name = match[1], match[2], match[3], match[4]
-    if count is None:
-        return Field(kind, name, None)
-    return Field(kind, name, int(count) if count and not bounded else -1)
 
 
 class _Walk:

@@ -279,7 +279,7 @@ def string_message(text: str) -> bytes:
         The message.
 
     """
-    return Template(stamped=False).string(text).finish().bytes()
+    return Template.of(EVENTS_TYPE, {'data': text}).bytes()
 
 
 def _channel(topic: RecordedTopic) -> dict[str, Any]:

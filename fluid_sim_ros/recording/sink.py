@@ -10,6 +10,7 @@ from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.commands import Commands
 from fluid_sim_ros.messages.state_topics import StateTopics
+from fluid_sim_ros.messages.topic import NEWEST
 from fluid_sim_ros.recording.recorder import Recorder
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
@@ -45,12 +46,9 @@ class RecordingSink:
         wanted = [topic for topic in self._states.topics if topic.name in names]
         commands = Commands(simulation, known).topics
         channels = [
-            RecordedTopic(
-                f'/{t.name.lstrip("/")}', t.type, t.name, t.reliable, t.depth, t.transient_local
-            )
-            for t in wanted
+            RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, *t.quality) for t in wanted
         ]
-        channels += [RecordedTopic(f'/{t.name}', t.type, t.name, depth=1) for t in commands]
+        channels += [RecordedTopic(f'/{t.name}', t.type, t.name, *NEWEST) for t in commands]
         self.recorder = Recorder(simulation, channels, RecorderOptions(path, known))
         self._topics = list(enumerate(wanted))
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}

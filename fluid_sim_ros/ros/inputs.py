@@ -5,34 +5,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from geometry_msgs.msg import TwistStamped, WrenchStamped
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.qos_overriding_options import QoSOverridingOptions
-from sensor_msgs.msg import JointState, Joy
-from std_msgs.msg import Float64MultiArray
 
 from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
 from fluid_sim_ros.loop.recorder_port import RecorderPort
-from fluid_sim_ros.messages.commands import (
-    JOINT_STATE,
-    JOY,
-    MULTI_ARRAY,
-    TWIST,
-    WRENCH,
-    Commands,
-    CommandTopic,
-    Effect,
-)
-from fluid_sim_ros.ros.polled_group import PolledGroup
+from fluid_sim_ros.messages.commands import Commands, CommandTopic, Effect
+from fluid_sim_ros.messages.topic import NEWEST
+from fluid_sim_ros.ros.raw import PolledSubscription, WaitSet
 from fluid_sim_ros.ros.stale_commands import StaleCommands
 from fluid_sim_ros.simulation import Simulation
-
-_MESSAGES: dict[str, type] = {
-    MULTI_ARRAY: Float64MultiArray, JOINT_STATE: JointState, WRENCH: WrenchStamped,
-    TWIST: TwistStamped, JOY: Joy,
-}  # fmt: skip
 
 #: Topics of which every message counts in lockstep by count.
 _COUNTED = ('/cmd/thrust', '/cmd/joints')
@@ -45,8 +26,7 @@ class Input:
     """One command topic and what became of its messages."""
 
     topic: str
-    message: type
-    subscription: Any
+    subscription: PolledSubscription
     command: CommandTopic
     record: int = -1
     required: bool = False
@@ -74,7 +54,6 @@ class Inputs:
         self._node = node
         self._report = report
         self._by_count = settings['lockstep.match'] == 'count'
-        self._group = PolledGroup()
         self.tap: RecorderPort | None = None
         self.saturated = 0
         self.ignored_answers = 0
@@ -83,8 +62,7 @@ class Inputs:
         for topic in Commands(simulation, settings).topics:
             self.add(topic)
         self._choose_awaited(simulation, settings['lockstep.wait_for'])
-        self._guard = node.create_guard_condition(lambda: None, callback_group=self._group)
-        self._wait_set = _rclpy.WaitSet(len(self.inputs), 1, 0, 0, 0, 0, node.context.handle)
+        self._wait_set = WaitSet(node)
         self._missing: list[Input] = []
         self._missing_step = -1
         self._refreshed_at = 0.0
@@ -95,16 +73,11 @@ class Inputs:
 
     def add(self, topic: CommandTopic) -> None:
         """Take commands on one more topic."""
-        message = _MESSAGES[topic.type]
         keep_all = self._by_count and topic.name.endswith(_COUNTED)
-        history = HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST
-        subscription = self._node.create_subscription(
-            message, topic.name, lambda _: None,
-            QoSProfile(history=history, depth=1, reliability=ReliabilityPolicy.RELIABLE),
-            callback_group=self._group, raw=True,
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-        )  # fmt: skip
-        self.inputs.append(Input(topic.name, message, subscription, topic))
+        subscription = PolledSubscription(
+            self._node, topic.type, topic.name, NEWEST, keep_all, overridable=True
+        )
+        self.inputs.append(Input(topic.name, subscription, topic))
 
     def _choose_awaited(self, simulation: Simulation, wait_for: Sequence[str]) -> None:
         wanted = [topic for topic in wait_for if topic]
@@ -144,8 +117,8 @@ class Inputs:
     def destroy(self) -> None:
         """Remove the subscriptions from the node."""
         for entry in self.inputs:
-            self._node.destroy_subscription(entry.subscription)
-        self._node.destroy_guard_condition(self._guard)
+            entry.subscription.destroy()
+        self._wait_set.destroy()
 
     # ---- the runner's source ---------------------------------------------------------------
 
@@ -161,7 +134,7 @@ class Inputs:
             self._missing_step = simulation.step_count
             self._missing = [
                 e for e in self.inputs
-                if e.required and (not e.optional or e.subscription.get_publisher_count())
+                if e.required and (not e.optional or e.subscription.publisher_count())
             ]  # fmt: skip
         deadline = time.monotonic() + timeout
         self.poll_unawaited(simulation)
@@ -171,12 +144,12 @@ class Inputs:
                 self._expire()
                 return True
             left = deadline - time.monotonic()
-            if left <= 0 or self._block(left):
+            if left <= 0 or self._wait_set.wait([e.subscription for e in self._missing], left):
                 return False
 
     def wake(self) -> None:
         """End a ``wait`` from another thread."""
-        self._guard.trigger()
+        self._wait_set.wake()
 
     def poll_unawaited(self, simulation: Simulation) -> None:
         """Apply what has arrived on topics that the lockstep does not wait for."""
@@ -198,30 +171,18 @@ class Inputs:
         return True
 
     def _refresh(self) -> None:
-        self._active = [e for e in self.inputs if e.subscription.get_publisher_count()]
+        self._active = [e for e in self.inputs if e.subscription.publisher_count()]
 
     def _drain(self, simulation: Simulation, entry: Input) -> None:
-        take = entry.subscription.handle.take_message
-        while (got := take(entry.message, True)) is not None:
-            self._offer(simulation, entry, got[0])
+        while (data := entry.subscription.take()) is not None:
+            self._offer(simulation, entry, data)
 
     def _answered(self, simulation: Simulation, entry: Input) -> bool:
         """Take one topic's messages until one of them answers the present state."""
-        take = entry.subscription.handle.take_message
-        while (got := take(entry.message, True)) is not None:
-            if self._offer(simulation, entry, got[0]):
+        while (data := entry.subscription.take()) is not None:
+            if self._offer(simulation, entry, data):
                 return True
         return False
-
-    def _block(self, timeout: float) -> bool:
-        """Wait for a message on a missing topic; True when woken by the guard instead."""
-        wait_set = self._wait_set
-        wait_set.clear_entities()
-        for entry in self._missing:
-            wait_set.add_subscription(entry.subscription.handle)
-        wait_set.add_guard_condition(self._guard.handle)
-        wait_set.wait(int(timeout * 1e9))
-        return bool(wait_set.get_ready_entities('guard_condition'))
 
     def _offer(self, simulation: Simulation, entry: Input, data: bytes) -> bool:
         """Apply one message; a fault is counted and reported. True when it answers this step."""

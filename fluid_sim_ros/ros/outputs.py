@@ -1,64 +1,19 @@
 """The node's state topics: computed and published only when due and subscribed to."""
 
-import importlib.util
 import math
 import time
 from dataclasses import dataclass
 from typing import Any
 
-from geometry_msgs.msg import TwistStamped, TwistWithCovarianceStamped, WrenchStamped
-from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.qos import (
-    DurabilityPolicy,
-    QoSProfile,
-    ReliabilityPolicy,
-    qos_profile_sensor_data,
-)
-from rclpy.qos_overriding_options import QoSOverridingOptions
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import (
-    FluidPressure,
-    Imu,
-    JointState,
-    MagneticField,
-    NavSatFix,
-    Range,
-)
-from visualization_msgs.msg import MarkerArray
 
 from fluid_sim_ros.loop.recorder_port import RecorderPort
-from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
-from fluid_sim_ros.messages.marker_topics import MARKERS
-from fluid_sim_ros.messages.sensor_topics import (
-    FLUID_PRESSURE,
-    IMU,
-    MAGNETIC_FIELD,
-    NAV_SAT_FIX,
-    RANGE,
-    VELOCITY,
-)
-from fluid_sim_ros.messages.state_topics import CLOCK, ODOMETRY, TRANSFORMS, StateTopics
+from fluid_sim_ros.messages.state_topics import CLOCK, StateTopics
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.ros.inputs import REFRESH_PERIOD
+from fluid_sim_ros.ros.message_types import find_message_class
+from fluid_sim_ros.ros.raw import RawPublisher
 from fluid_sim_ros.simulation import Simulation
-
-_STATE_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
-_CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
-_LATCHED_QOS = QoSProfile(
-    depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
-)
-_MESSAGES: dict[str, type] = {
-    ODOMETRY: Odometry, WRENCH: WrenchStamped, TWIST: TwistStamped, JOINT_STATE: JointState,
-    CLOCK: Clock, IMU: Imu, MAGNETIC_FIELD: MagneticField, FLUID_PRESSURE: FluidPressure,
-    NAV_SAT_FIX: NavSatFix, RANGE: Range, VELOCITY: TwistWithCovarianceStamped,
-    MARKERS: MarkerArray,
-}  # fmt: skip
-# an optional part of ROS: without it the transforms can be recorded, but not published
-if importlib.util.find_spec('tf2_msgs') is not None:
-    from tf2_msgs.msg import TFMessage
-
-    _MESSAGES[TRANSFORMS] = TFMessage
 
 
 @dataclass
@@ -71,7 +26,7 @@ class Topic:
     """
 
     state: StateTopic
-    publisher: Any
+    publisher: RawPublisher | None
     full: str
     record: int = -1
     subscribed: bool = False
@@ -79,6 +34,20 @@ class Topic:
 
     def __post_init__(self) -> None:
         self.name, self.period = self.state.name, self.state.period
+
+    def publish(self, data: bytes) -> None:
+        """
+        Send a message to the subscribers.
+
+        Parameters
+        ----------
+        data
+            The message (CDR).
+
+        """
+        if self.publisher is not None:
+            self.publisher.publish(data)
+            self.published += 1
 
 
 class Outputs:
@@ -108,28 +77,17 @@ class Outputs:
         self._refreshed_at = -math.inf
         self.refresh()
 
-    def _publisher(self, state: StateTopic) -> Any:
-        if state.type not in _MESSAGES:
+    def _publisher(self, state: StateTopic) -> RawPublisher | None:
+        # without an optional part of ROS (tf2_msgs) a topic can be recorded, but not published
+        if find_message_class(state.type) is None:
             return None
-        return self._node.create_publisher(
-            _MESSAGES[state.type], state.name,
-            self._quality(state),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-        )  # fmt: skip
-
-    @staticmethod
-    def _quality(state: StateTopic) -> QoSProfile:
-        if state.type == CLOCK:
-            return _CLOCK_QOS
-        if state.transient_local:
-            return _LATCHED_QOS
-        return _STATE_QOS if state.reliable else qos_profile_sensor_data
+        return RawPublisher(self._node, state.type, state.name, state.quality, overridable=True)
 
     def destroy(self) -> None:
         """Remove the publishers from the node."""
         for topic in self.topics:
             if topic.publisher is not None:
-                self._node.destroy_publisher(topic.publisher)
+                topic.publisher.destroy()
 
     # ---- the runner's sink -----------------------------------------------------------------
 
@@ -171,21 +129,20 @@ class Outputs:
             return
         tick = simulation.tick
         due = [t for t in self._for_display if stands or tick % t.period == 0]
-        wanted = [t for t in due if t.publisher.get_subscription_count()]
+        wanted = [t for t in due if t.publisher and t.publisher.subscription_count()]
         if due:
             self._show_due = max(self._show_due + self._show_period, now)
         if wanted:
             self._states.look()
         for topic in wanted:
-            topic.publisher.handle.publish_raw(self._states.data(topic.state))
-            topic.published += 1
+            topic.publish(self._states.data(topic.state))
 
     def refresh(self) -> None:
         """Look which topics have subscribers; what is recorded is wanted without any."""
         shown = []
         for topic in self.topics:
             publisher = topic.publisher
-            heard = publisher is not None and publisher.get_subscription_count() > 0
+            heard = publisher is not None and publisher.subscription_count() > 0
             topic.subscribed = heard and not topic.state.for_display
             if heard and topic.state.for_display:
                 shown.append(topic)
@@ -207,8 +164,7 @@ class Outputs:
             if not data:
                 continue
             if topic.subscribed:
-                topic.publisher.handle.publish_raw(data)
-                topic.published += 1
+                topic.publish(data)
             if topic.record >= 0:
                 recorded.append((topic.record, data))
         return recorded

@@ -15,6 +15,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.ros.raw import parameter_overrides
 
 _BUILT_IN = ('use_sim_time', 'start_type_description_service')
 
@@ -67,8 +68,7 @@ def declare(node: Node, table: Table) -> None:
         If an override names no parameter, has the wrong type, or is out of range.
 
     """
-    given = node._parameter_overrides  # rclpy offers no public view of what the user passed
-    for name, override in given.items():
+    for name, override in parameter_overrides(node).items():
         if name in table:
             fault = check(table, name, override.value)
             if fault:

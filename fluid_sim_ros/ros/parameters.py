@@ -9,8 +9,10 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import LOOPBACK, PROTOCOLS
+from fluid_sim_ros.messages import commands, state_topics
 from fluid_sim_ros.ros import parameter_table
 from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.raw import parameter_overrides
 from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
 
 PACINGS = ('realtime', 'free', 'lockstep')
@@ -18,8 +20,6 @@ MATCHES = ('stamp', 'count')
 TIMEOUT_RULES = ('hold', 'continue', 'stop')
 RECORD_POLICIES = ('block', 'drop')
 THRUST_UNITS = ('newton', 'normalized')
-
-_VARIANCE = [0.0] * 6
 
 TABLE: dict[str, Declared] = {
     'scene': Declared('quadrotor', 'scene name, or path of a scene (.yaml) or MJCF (.xml) file'),
@@ -39,7 +39,8 @@ TABLE: dict[str, Declared] = {
     ),
     'lockstep.period': Declared(0.01, '[s] simulated time between two answers', low=1e-6, high=10),
     'lockstep.match': Declared(
-        'stamp', 'an answer is matched by its stamp, or by count', choices=MATCHES
+        commands.DEFAULTS['lockstep.match'], 'an answer is matched by its stamp, or by count',
+        choices=MATCHES,
     ),
     'lockstep.wait_for': Declared(
         [''],
@@ -63,25 +64,26 @@ TABLE: dict[str, Declared] = {
         live=True,
     ),
     'thrust.unit': Declared(
-        'newton', 'unit of thrust commands; normalized = share of the limit', choices=THRUST_UNITS
+        commands.DEFAULTS['thrust.unit'],
+        'unit of thrust commands; normalized = share of the limit',
+        choices=THRUST_UNITS,
     ),
     'enable_wind': Declared(True, 'wind and current act', live=True),
     'reset.keyframe': Declared('', "keyframe of ~/reset; empty = the scene's", live=True),
     'step_count': Declared(1, 'steps that ~/step takes', low=1, live=True),
-    'odom.rate': Declared(100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
+    **{
+        name: Declared(rate, '[Hz] of simulated time, must divide the step rate', low=1e-3)
+        for name, rate in state_topics.DEFAULTS.items()
+        if name.endswith('.rate') and name != 'markers.rate'
+    },
     'odom.pose_covariance': Declared(
-        _VARIANCE, '[m^2, rad^2] diagonal of the pose covariance', low=0, length=(6,)
+        state_topics.DEFAULTS['odom.pose_covariance'],
+        '[m^2, rad^2] diagonal of the pose covariance', low=0, length=(6,),
     ),
     'odom.twist_covariance': Declared(
-        _VARIANCE, '[m^2/s^2, rad^2/s^2] diagonal of the twist covariance', low=0, length=(6,)
+        state_topics.DEFAULTS['odom.twist_covariance'],
+        '[m^2/s^2, rad^2/s^2] diagonal of the twist covariance', low=0, length=(6,),
     ),
-    'wrench.rate': Declared(100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
-    'medium.rate': Declared(100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
-    'joint_states.rate': Declared(
-        100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3
-    ),
-    'clock.rate': Declared(100.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
-    'tf.rate': Declared(50.0, '[Hz] of simulated time, must divide the step rate', low=1e-3),
     'record': Declared(
         '',
         'MCAP file (.mcap) to record to, or a folder that becomes a rosbag2 bag; empty = no '
@@ -121,9 +123,10 @@ TABLE: dict[str, Declared] = {
         high=3600,
     ),
     'markers.rate': Declared(
-        20.0, '[Hz] at most, of simulated and of wall time', low=0.1, high=100
+        state_topics.DEFAULTS['markers.rate'], '[Hz] at most, of simulated and of wall time',
+        low=0.1, high=100,
     ),
-}
+}  # fmt: skip
 
 USE_SIM_TIME_REFUSED = (
     "parameter 'use_sim_time': must be false for this node, because it is the one that "
@@ -141,7 +144,7 @@ def declare_all(node: Node) -> None:
         If an override names no parameter, has the wrong type, or is out of range.
 
     """
-    given = node._parameter_overrides  # rclpy offers no public view of what the user passed
+    given = parameter_overrides(node)
     if 'use_sim_time' in given and given['use_sim_time'].value:
         raise ConfigError(USE_SIM_TIME_REFUSED)
     parameter_table.declare(node, TABLE)

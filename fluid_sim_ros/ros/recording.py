@@ -13,6 +13,7 @@ from fluid_sim_ros.loop.recorder_port import (
     open_recorder,
     selected,
 )
+from fluid_sim_ros.messages.topic import NEWEST
 from fluid_sim_ros.ros.diagnostics import Diagnostics
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
@@ -49,21 +50,11 @@ def start_recording(
         if output.name in wanted:
             output.record = len(recorded)
             state = output.state
-            depth = 1 if output.name == '/clock' else state.depth
-            recorded.append(
-                RecordedTopic(
-                    output.full,
-                    state.type,
-                    output.name,
-                    state.reliable,
-                    depth,
-                    state.transient_local,
-                )
-            )
+            recorded.append(RecordedTopic(output.full, state.type, output.name, *state.quality))
     for entry in inputs.inputs:
         entry.record = len(recorded)
-        full = entry.subscription.topic_name
-        recorded.append(RecordedTopic(full, entry.command.type, entry.topic, depth=1))
+        full = entry.subscription.topic
+        recorded.append(RecordedTopic(full, entry.command.type, entry.topic, *NEWEST))
     if _DIAGNOSTICS in wanted:
         diagnostics.record = len(recorded)
         recorded.append(RecordedTopic(_DIAGNOSTICS, _DIAGNOSTICS_TYPE, _DIAGNOSTICS))

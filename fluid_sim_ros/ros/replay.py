@@ -5,8 +5,6 @@ While it runs: ``~/pause`` (SetBool), and when paused ``~/step`` (Trigger), whic
 next simulated time. Only the calling thread publishes; the services set flags for it.
 """
 
-import importlib
-import importlib.util
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -14,17 +12,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import rclpy
-from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
-from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.recorder_port import RecordedTopic
-from fluid_sim_ros.messages import templates
+from fluid_sim_ros.messages.state_topics import CLOCK
+from fluid_sim_ros.messages.templates import StampBytes, Template
+from fluid_sim_ros.messages.topic import NEWEST, Quality
+from fluid_sim_ros.ros.message_types import find_message_class
 from fluid_sim_ros.ros.process import end_on_signal, executor_thread
+from fluid_sim_ros.ros.raw import RawPublisher
 
 NODE_NAME = 'fluid_sim_replay'
 _CLOCK = '/clock'
@@ -67,7 +66,7 @@ class ReplayOptions:
 
 def is_installed(message: str) -> bool:
     """Return whether ROS here has the package of a message type, ``package/msg/Name``."""
-    return importlib.util.find_spec(message.split('/')[0]) is not None
+    return find_message_class(message) is not None
 
 
 class ReplayNode(Node):
@@ -76,13 +75,17 @@ class ReplayNode(Node):
     def __init__(self, topics: Sequence[RecordedTopic], options: ReplayOptions) -> None:
         super().__init__(NODE_NAME)
         self._options = options
-        self._publishers_by_name = {topic.name: self._publisher(topic) for topic in topics}
+        self._publishers_by_name = {
+            topic.name: RawPublisher(
+                self, topic.type, topic.name,
+                Quality(topic.reliable, topic.depth, topic.transient_local),
+            )
+            for topic in topics
+        }  # fmt: skip
         self._has_clock = _CLOCK in self._publishers_by_name
         if not self._has_clock:
-            self._publishers_by_name[_CLOCK] = self.create_publisher(
-                Clock, _CLOCK, QoSProfile(depth=1)
-            )
-        self._clock_message, self._stamp = templates.clock(), templates.StampBytes()
+            self._publishers_by_name[_CLOCK] = RawPublisher(self, CLOCK, _CLOCK, NEWEST)
+        self._clock_message, self._stamp = Template.of(CLOCK), StampBytes()
         self._going = threading.Event()
         if not options.paused:
             self._going.set()
@@ -91,22 +94,6 @@ class ReplayNode(Node):
         self.published = 0
         self.create_service(SetBool, '~/pause', self._on_pause)
         self.create_service(Trigger, '~/step', self._on_step)
-
-    def _publisher(self, topic: RecordedTopic) -> Any:
-        package, _, name = topic.type.split('/')
-        message = getattr(importlib.import_module(f'{package}.msg'), name)
-        durable = DurabilityPolicy.TRANSIENT_LOCAL
-        return self.create_publisher(
-            message,
-            topic.name,
-            QoSProfile(
-                depth=topic.depth,
-                reliability=(
-                    ReliabilityPolicy.RELIABLE if topic.reliable else ReliabilityPolicy.BEST_EFFORT
-                ),
-                durability=durable if topic.transient_local else DurabilityPolicy.VOLATILE,
-            ),
-        )
 
     # ---- services (executor thread) --------------------------------------------------------
 
@@ -147,7 +134,7 @@ class ReplayNode(Node):
         present, since = 0, time.monotonic()
         while time.monotonic() < deadline and not self.ending:
             publishers = self._publishers_by_name.values()
-            count = sum(publisher.get_subscription_count() for publisher in publishers)
+            count = sum(publisher.subscription_count() for publisher in publishers)
             if count != present:
                 present, since = count, time.monotonic()
             elif present and time.monotonic() - since > _SETTLED:
@@ -157,7 +144,7 @@ class ReplayNode(Node):
     def _await_delivery(self) -> None:
         """Wait until what was published has arrived, for a while at most."""
         for publisher in self._publishers_by_name.values():
-            publisher.wait_for_all_acked(Duration(seconds=1))
+            publisher.await_delivery(1.0)
 
     def _play_once(self, messages: Iterator[tuple[str, int, bytes]]) -> None:
         present, begin_ns, begin = -1, 0, 0.0
@@ -172,7 +159,7 @@ class ReplayNode(Node):
                 present = time_ns
                 if not self._has_clock:
                     self._publish_clock(time_ns)
-            self._publishers_by_name[topic].handle.publish_raw(data)
+            self._publishers_by_name[topic].publish(data)
             self.published += 1
 
     def _hold(self) -> bool:
@@ -197,8 +184,7 @@ class ReplayNode(Node):
     def _publish_clock(self, time_ns: int) -> None:
         self._stamp.set(time_ns)
         self._clock_message.stamps[0][:] = self._stamp.view
-        publisher: Any = self._publishers_by_name[_CLOCK]
-        publisher.handle.publish_raw(self._clock_message.bytes())
+        self._publishers_by_name[_CLOCK].publish(self._clock_message.bytes())
 
 
 def replay(

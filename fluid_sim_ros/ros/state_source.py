@@ -2,19 +2,16 @@
 
 from collections import deque
 from collections.abc import Iterator
-from typing import Any
 
-from geometry_msgs.msg import TwistStamped
-from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import read_stamped_pair
-from fluid_sim_ros.ros.polled_group import PolledGroup
+from fluid_sim_ros.messages.commands import TWIST
+from fluid_sim_ros.messages.state_topics import ODOMETRY
+from fluid_sim_ros.messages.topic import STATE
+from fluid_sim_ros.ros.raw import PolledSubscription
 from fluid_sim_ros.ros.states import StampedState, read_odometry
-
-_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 
 
 class StateSource:
@@ -35,34 +32,29 @@ class StateSource:
 
     def __init__(self, node: Node, vehicle: str, medium: str = '') -> None:
         self._log = node.get_logger()
-        group = PolledGroup()
-
-        def subscribe(message: type, topic: str) -> Any:
-            return node.create_subscription(
-                message, topic, lambda _: None, _QOS, callback_group=group, raw=True
-            )
-
-        self._odometry = subscribe(Odometry, f'{vehicle}/odom')
-        self._medium = subscribe(TwistStamped, f'{vehicle}/medium/{medium}') if medium else None
-        self._states: deque[StampedState] = deque(maxlen=_QOS.depth)
-        self._velocities: deque[tuple[int, tuple[float, ...]]] = deque(maxlen=_QOS.depth)
+        self._odometry = PolledSubscription(node, ODOMETRY, f'{vehicle}/odom', STATE)
+        self._medium = None
+        if medium:
+            self._medium = PolledSubscription(node, TWIST, f'{vehicle}/medium/{medium}', STATE)
+        self._states: deque[StampedState] = deque(maxlen=STATE.depth)
+        self._velocities: deque[tuple[int, tuple[float, ...]]] = deque(maxlen=STATE.depth)
 
     @property
     def topic(self) -> str:
         """Name of the odometry topic."""
-        return str(self._odometry.topic_name)
+        return self._odometry.topic
 
     @property
-    def handles(self) -> list[Any]:
-        """Subscriptions to wait for."""
+    def subscriptions(self) -> list[PolledSubscription]:
+        """What to wait for."""
         both = (self._odometry, self._medium)
-        return [subscription.handle for subscription in both if subscription is not None]
+        return [subscription for subscription in both if subscription is not None]
 
     def take(self) -> Iterator[StampedState]:
         """Yield the states that are complete now."""
-        while got := self._odometry.handle.take_message(Odometry, True):
+        while data := self._odometry.take():
             try:
-                state = read_odometry(got[0])
+                state = read_odometry(data)
             except CommandError as error:
                 self._report(str(error))
                 continue
@@ -71,7 +63,7 @@ class StateSource:
             else:
                 self._keep(state)
         if self._medium is not None:
-            self._take_velocities(self._medium.handle)
+            self._take_velocities(self._medium)
             yield from self._pairs()
 
     def _keep(self, state: StampedState) -> None:
@@ -80,10 +72,10 @@ class StateSource:
             self._velocities.clear()
         self._states.append(state)
 
-    def _take_velocities(self, handle: Any) -> None:
-        while got := handle.take_message(TwistStamped, True):
+    def _take_velocities(self, medium: PolledSubscription) -> None:
+        while data := medium.take():
             try:
-                message = read_stamped_pair(got[0])
+                message = read_stamped_pair(data)
             except CommandError as error:
                 self._report(str(error))
                 continue

@@ -23,5 +23,5 @@ def test_every_type_in_use_has_a_definition(name):
     assert definition(name).hash.startswith('RIHS01_')
 
 
-def test_the_defaults_of_the_state_topics_are_those_of_the_node():
+def test_every_setting_of_the_state_topics_is_a_parameter_of_the_node_with_the_same_default():
     assert {name: TABLE[name].default for name in DEFAULTS} == DEFAULTS

@@ -1,32 +1,39 @@
 """CDR templates: the bytes that are published equal those of the middleware's serialiser."""
 
+import array
+
 import numpy as np
 import pytest
-from geometry_msgs.msg import Point, TwistStamped, TwistWithCovarianceStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_typestore
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import FluidPressure, Imu, JointState, MagneticField, NavSatFix, Range
-from std_msgs.msg import ColorRGBA, Float64MultiArray
+from sensor_msgs.msg import JointState, NavSatFix
+from std_msgs.msg import Float64MultiArray
 from visualization_msgs.msg import Marker, MarkerArray
 
-from fluid_sim_ros.messages import marker_topics, sensor_templates, templates
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.messages import definitions
 from fluid_sim_ros.messages.definitions import definition
-from fluid_sim_ros.messages.state_topics import TRANSFORMS
+from fluid_sim_ros.messages.members import MessageType
+from fluid_sim_ros.messages.templates import StampBytes, Template, as_bytes
+from fluid_sim_ros.ros.message_types import find_message_class, message_class
 
 pytestmark = pytest.mark.ros
 
 TIME_NS = 1_234_567_890_123
+TRANSFORMS = 'tf2_msgs/msg/TFMessage'
+ODOMETRY = 'nav_msgs/msg/Odometry'
+TYPES = sorted(definitions.known())
 
 
 def fill(template, *blocks):
-    stamp = templates.StampBytes()
+    """Set all stamps and blocks of a template."""
+    stamp = StampBytes()
     stamp.set(TIME_NS)
     for place in template.stamps:
         place[:] = stamp.view
     for target, numbers in zip(template.blocks, blocks, strict=True):
-        target[:] = templates.as_bytes(np.array(numbers, dtype=float))
+        target[:] = as_bytes(np.array(numbers, dtype=float))
     return template
 
 
@@ -46,72 +53,155 @@ def stamped(message):
     return message
 
 
-def test_odometry():
+def set_xyz(target, numbers):
+    for axis, number in zip('xyzw', numbers, strict=False):
+        setattr(target, axis, float(number))
+
+
+def fill_at_random(message, random, depth=0):
+    """Give every member of a ROS message a random value, and return the same as nested values."""
+    values = {}
+    for name, kind in message.get_fields_and_field_types().items():
+        member = getattr(message, name)
+        if hasattr(member, 'get_fields_and_field_types'):
+            values[name] = fill_at_random(member, random, depth + 1)
+            continue
+        if isinstance(member, str):
+            value = 'x' * int(random.integers(0, 6))
+        elif isinstance(member, bool):
+            value = bool(random.integers(2))
+        elif isinstance(member, np.ndarray):
+            value = random.normal(size=member.shape).astype(member.dtype)
+        elif isinstance(member, array.array):
+            count = int(random.integers(0, 4))
+            value = array.array(member.typecode, random.integers(0, 100, count).tolist())
+        elif isinstance(member, bytes):
+            value = bytes([int(random.integers(256))])
+        elif isinstance(member, list):
+            item = kind.removeprefix('sequence<').removesuffix('>')
+            count = int(random.integers(0, 3))
+            if item == 'string':
+                value = ['y' * int(random.integers(0, 6)) for _ in range(count)]
+            else:
+                package, name_of_type = item.split('/')
+                value = [message_class(f'{package}/msg/{name_of_type}')() for _ in range(count)]
+                values[name] = [fill_at_random(v, random, depth + 1) for v in value]
+        elif isinstance(member, int):
+            value = int(random.integers(0, 100))
+        else:
+            value = float(np.float32(random.normal()))
+        setattr(message, name, value)
+        if name not in values:
+            values[name] = value[0] if isinstance(value, bytes) else value
+    return values
+
+
+@pytest.mark.parametrize('name', [name for name in TYPES if name != TRANSFORMS])
+def test_every_kept_type_is_written_as_the_middleware_writes_it(name):
+    """Sixteen messages with random numbers, strings and lengths: every alignment occurs."""
+    random = np.random.default_rng(1)
+    for _ in range(16):
+        message = message_class(name)()
+        assert_same(Template.of(name, fill_at_random(message, random)), message)
+
+
+@pytest.mark.parametrize('name', [name for name in TYPES if find_message_class(name)])
+def test_what_is_not_given_has_the_default_of_the_definition(name):
+    """Such as a quaternion, whose w is 1."""
+    assert_same(Template.of(name), message_class(name)())
+
+
+def test_blocks_and_stamps_are_views_that_change_the_message():
     numbers = np.random.default_rng(0).normal(size=13)
     message = stamped(Odometry())
     message.header.frame_id = 'rov/odom'
     message.child_frame_id = 'rov/base_link'
     pose, twist = message.pose.pose, message.twist.twist
-    pose.position.x, pose.position.y, pose.position.z = numbers[:3]
-    o = pose.orientation
-    o.x, o.y, o.z, o.w = numbers[3:7]
-    twist.linear.x, twist.linear.y, twist.linear.z = numbers[7:10]
-    twist.angular.x, twist.angular.y, twist.angular.z = numbers[10:]
+    set_xyz(pose.position, numbers[:3])
+    set_xyz(pose.orientation, numbers[3:7])
+    set_xyz(twist.linear, numbers[7:10])
+    set_xyz(twist.angular, numbers[10:])
     message.pose.covariance = np.diag([1.0, 2, 3, 4, 5, 6]).ravel()
-    message.twist.covariance = np.diag([6.0, 5, 4, 3, 2, 1]).ravel()
-    template = templates.odometry('rov', [1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1])
-    assert_same(fill(template, numbers[:3], numbers[3:7], numbers[7:]), message)
+    template = Template.of(
+        ODOMETRY,
+        {
+            'header.frame_id': 'rov/odom',
+            'child_frame_id': 'rov/base_link',
+            'pose.covariance': np.diag([1.0, 2, 3, 4, 5, 6]).ravel(),
+        },
+        ['twist.twist', 'pose.pose.position', 'pose.pose.orientation'],
+    )
+    assert_same(fill(template, numbers[7:], numbers[:3], numbers[3:7]), message)
 
 
-def test_wrench():
-    message = stamped(WrenchStamped())
-    message.header.frame_id = 'x/base_link'
-    w = message.wrench
-    w.force.x, w.force.y, w.force.z, w.torque.x, w.torque.y, w.torque.z = map(float, range(1, 7))
-    assert_same(fill(templates.wrench('x/base_link'), range(1, 7)), message)
-
-
-def test_twist():
-    message = stamped(TwistStamped())
-    message.header.frame_id = 'map'
-    linear = message.twist.linear
-    linear.x, linear.y, linear.z = 1.0, 2.0, 3.0
-    assert_same(fill(templates.twist('map'), [1, 2, 3]), message)
-
-
-def test_clock():
-    message = Clock()
-    message.clock.sec, message.clock.nanosec = divmod(TIME_NS, 10**9)
-    assert_same(fill(templates.clock()), message)
-
-
-@pytest.mark.parametrize('count', [1, 2, 5])
-def test_joint_state(count):
+@pytest.mark.parametrize('count', [0, 1, 2, 5])
+def test_sequences_as_blocks(count):
     names = [f'joint_{"x" * i}' for i in range(count)]
-    message = stamped(JointState(name=names))
     rows = np.random.default_rng(count).normal(size=(3, count))
+    message = stamped(JointState(name=names))
     message.position, message.velocity, message.effort = (row.tolist() for row in rows)
-    assert_same(fill(templates.joint_state(names), *rows), message)
+    lists = ['position', 'velocity', 'effort']
+    constants = {'name': names, **{member: [0.0] * count for member in lists}}
+    template = Template.of('sensor_msgs/msg/JointState', constants, lists)
+    assert_same(fill(template, *rows), message)
+    array_of_numbers = Template.of('std_msgs/msg/Float64MultiArray', {'data': rows[0]}, ['data'])
+    assert_same(array_of_numbers, Float64MultiArray(data=rows[0].tolist()))
+
+
+@pytest.mark.parametrize('frame', ['g', 'gn', 'gns', 'gnss'])  # each alignment of what follows
+def test_numbers_of_several_sizes(frame):
+    message = stamped(NavSatFix(latitude=47.4, longitude=8.5, altitude=500.0))
+    message.header.frame_id = frame
+    message.status.service = 1
+    message.position_covariance_type = NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
+    template = Template.of(
+        'sensor_msgs/msg/NavSatFix',
+        {
+            'header.frame_id': frame, 'status': {'status': -1, 'service': 1},
+            'position_covariance_type': 2,
+        },
+        ['altitude', 'latitude', 'longitude'],
+    )  # fmt: skip
+    message.status.status = -1
+    assert_same(fill(template, [500.0], [47.4], [8.5]), message)
+
+
+@pytest.mark.parametrize('name', ['a', 'ab', 'abc', 'abcd'])  # each alignment of what follows
+def test_sequences_of_messages_have_blocks_of_their_own(name):
+    """A pose of one marker and the points of another; a stamp that is given stays."""
+    pose, ends = np.random.default_rng(3).normal(size=7), np.arange(1.0, 7.0)
+    cube = stamped(Marker(ns=name, type=Marker.CUBE))
+    set_xyz(cube.pose.position, pose[:3])
+    set_xyz(cube.pose.orientation, pose[3:])
+    arrow = stamped(Marker(type=Marker.ARROW, text=name))
+    points = message_class('geometry_msgs/msg/Point')
+    arrow.points = [points(x=1.0, y=2.0, z=3.0), points(x=4.0, y=5.0, z=6.0)]
+    no_texture = {'texture.header.stamp': {}}
+    markers = [
+        {'ns': name, 'type': 1, **no_texture},
+        {'type': 0, 'text': name, 'points': [{}, {}], **no_texture},
+    ]
+    template = Template.of(
+        'visualization_msgs/msg/MarkerArray', {'markers': markers},
+        ['markers[0].pose', 'markers[1].points'],
+    )  # fmt: skip
+    assert_same(fill(template, pose, ends), MarkerArray(markers=[cube, arrow]))
 
 
 def test_transforms():
     """Read back by an independent reader, as ROS's own message need not be installed."""
-    numbers = np.random.default_rng(1).normal(size=(2, 7))
-    template = templates.transforms({'rov/odom': 'map', 'rov/base_link': 'rov/odom'})
-    stamp = templates.StampBytes()
-    stamp.set(TIME_NS)
-    for place in template.stamps:
-        place[:] = stamp.view
-    for block, values in zip(
-        template.blocks, [part for row in numbers for part in (row[:3], row[3:])], strict=True
-    ):
-        block[:] = templates.as_bytes(values.copy())
+    rows = np.random.default_rng(1).normal(size=(2, 7))
+    frames = [('map', 'rov/odom'), ('rov/odom', 'rov/base_link')]
+    transforms = [{'header.frame_id': p, 'child_frame_id': c} for p, c in frames]
+    blocks = [
+        f'transforms[{i}].transform.{part}' for i in (0, 1) for part in ('translation', 'rotation')
+    ]
+    template = Template.of(TRANSFORMS, {'transforms': transforms}, blocks)
+    fill(template, *(part for row in rows for part in (row[:3], row[3:])))
     kinds = get_typestore(Stores.ROS2_JAZZY)
     message = kinds.deserialize_cdr(template.bytes(), TRANSFORMS)
-    assert [(t.header.frame_id, t.child_frame_id) for t in message.transforms] == [
-        ('map', 'rov/odom'), ('rov/odom', 'rov/base_link'),
-    ]  # fmt: skip
-    for transform, row in zip(message.transforms, numbers, strict=True):
+    assert [(t.header.frame_id, t.child_frame_id) for t in message.transforms] == frames
+    for transform, row in zip(message.transforms, rows, strict=True):
         assert transform.header.stamp.sec * 10**9 + transform.header.stamp.nanosec == TIME_NS
         place, turn = transform.transform.translation, transform.transform.rotation
         assert [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w] == row.tolist()
@@ -119,101 +209,40 @@ def test_transforms():
     assert definition(TRANSFORMS).hash == kinds.hash_rihs01(TRANSFORMS)
 
 
-@pytest.mark.parametrize('count', [0, 1, 4])
-def test_joint_command(count):
-    names = [f'fin{"x" * i}' for i in range(count)]
-    message = stamped(JointState(name=names))
-    row = np.random.default_rng(count).normal(size=count)
-    message.position = row.tolist()
-    assert_same(fill(templates.joint_command(names), *([row] if count else [])), message)
+def test_copies_follow_arrays_one_or_several_to_a_block():
+    quat_wxyz, place = np.array([1.0, 2.0, 3.0, 4.0]), np.zeros(3)
+    template = Template.of(ODOMETRY, {}, ['pose.pose.orientation', 'pose.pose.position'])
+    copies = template.copies([(quat_wxyz[1:], quat_wxyz[:1]), place])
+    place[:] = 7.0
+    for target, source in copies:
+        target[:] = source
+    turn, where = (np.frombuffer(block) for block in template.blocks)
+    assert turn.tolist() == [2.0, 3.0, 4.0, 1.0]
+    assert where.tolist() == [7.0] * 3
+    with pytest.raises(ConfigError, match='a block of 32 bytes was given 24 bytes'):
+        template.copies([place, place])
 
 
-@pytest.mark.parametrize('count', [0, 1, 4])
-def test_multi_array(count):
-    row = np.random.default_rng(count).normal(size=count)
-    template = fill(templates.multi_array(count), *([row] if count else []))
-    assert_same(template, Float64MultiArray(data=row.tolist()))
+@pytest.mark.parametrize(
+    ('constants', 'blocks', 'words'),
+    [
+        ({'pos': 1}, [], 'no member pos; it has: header, child_frame_id, pose, twist'),
+        ({}, ['pose.pos'], 'no member pose.pos'),
+        ({'pose.covariance': [1.0]}, [], 'pose.covariance: 1 values, needs 36'),
+        ({'pose.covariance': ['a'] * 36}, [], 'pose.covariance: required argument'),
+        ({}, ['header'], 'header.stamp: stands in a block, which holds only numbers'),
+    ],
+)
+def test_what_does_not_fit_the_definition_is_named(constants, blocks, words):
+    with pytest.raises(ConfigError, match=words):
+        Template.of(ODOMETRY, constants, blocks)
 
 
-def test_imu():
-    numbers = np.random.default_rng(2).normal(size=(2, 3))
-    message = stamped(Imu())
-    message.header.frame_id = 'x500/imu'
-    message.orientation_covariance[0] = -1.0
-    w, f = message.angular_velocity, message.linear_acceleration
-    w.x, w.y, w.z = numbers[0]
-    f.x, f.y, f.z = numbers[1]
-    message.angular_velocity_covariance = (2.0 * np.eye(3)).ravel()
-    message.linear_acceleration_covariance = (3.0 * np.eye(3)).ravel()
-    assert_same(fill(sensor_templates.imu('x500/imu', 2.0, 3.0), *numbers), message)
+def test_numbers_that_do_not_lie_side_by_side_are_no_block():
+    with pytest.raises(ConfigError, match='its numbers do not lie side by side'):
+        Template.of('sensor_msgs/msg/NavSatFix', {'header.frame_id': 'g'}, ['status'])
 
 
-def test_magnetic_field():
-    message = stamped(MagneticField())
-    message.header.frame_id = 'm'
-    field = message.magnetic_field
-    field.x, field.y, field.z = 1e-5, 2e-5, -4e-5
-    message.magnetic_field_covariance = (1e-14 * np.eye(3)).ravel()
-    assert_same(fill(sensor_templates.magnetic_field('m', 1e-14), [1e-5, 2e-5, -4e-5]), message)
-
-
-def test_fluid_pressure():
-    message = stamped(FluidPressure(fluid_pressure=101325.0, variance=2.5))
-    message.header.frame_id = 'x500/barometer'
-    assert_same(fill(sensor_templates.fluid_pressure('x500/barometer', 2.5), [101325.0]), message)
-
-
-@pytest.mark.parametrize('frame', ['g', 'gn', 'gns', 'gnss'])  # each alignment of what follows
-def test_nav_sat_fix(frame):
-    message = stamped(NavSatFix(latitude=47.4, longitude=8.5, altitude=500.0))
-    message.header.frame_id = frame
-    message.status.status, message.status.service = 0, 1
-    message.position_covariance = np.diag([4.0, 4.0, 9.0]).ravel()
-    message.position_covariance_type = NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
-    assert_same(fill(sensor_templates.nav_sat_fix(frame, 4.0, 9.0), [47.4, 8.5, 500.0]), message)
-
-
-def test_velocity():
-    message = stamped(TwistWithCovarianceStamped())
-    message.header.frame_id = 'rov/dvl'
-    linear = message.twist.twist.linear
-    linear.x, linear.y, linear.z = 1.0, 2.0, 3.0
-    message.twist.covariance = np.diag([5.0, 5.0, 5.0, 1e6, 1e6, 1e6]).ravel()
-    assert_same(fill(sensor_templates.velocity('rov/dvl', 5.0), [1, 2, 3]), message)
-
-
-@pytest.mark.parametrize('frame', ['r', 'ra', 'ran', 'rang'])
-@pytest.mark.parametrize(('by_sound', 'kind'), [(True, Range.ULTRASOUND), (False, Range.INFRARED)])
-def test_range(frame, by_sound, kind):
-    message = stamped(Range(radiation_type=kind, min_range=0.5, max_range=12.0, range=3.25))
-    message.header.frame_id = frame
-    message.variance = 0.25
-    template = sensor_templates.distance(frame, by_sound, 0.5, 12.0, 0.25)
-    for place in template.stamps:
-        place[:] = fill(templates.clock()).stamps[0]
-    template.blocks[0][:] = templates.as_bytes(np.array([3.25], dtype=np.float32))
-    assert_same(template, message)
-
-
-@pytest.mark.parametrize('name', ['a', 'ab', 'abc', 'abcd'])  # each alignment of what follows
-def test_marker_array(name):
-    """A geom and an arrow, as ROS's own message holds them."""
-    pose, ends = np.random.default_rng(3).normal(size=7), np.arange(1.0, 7.0)
-    geom = stamped(Marker(ns=name, id=3, type=Marker.CUBE, action=Marker.ADD))
-    p, o = geom.pose.position, geom.pose.orientation
-    p.x, p.y, p.z, o.x, o.y, o.z, o.w = pose
-    geom.scale.x, geom.scale.y, geom.scale.z = 1.0, 2.0, 3.0
-    geom.color = ColorRGBA(r=0.25, g=0.5, b=0.75, a=1.0)
-    arrow = stamped(Marker(ns='forces', id=1, type=Marker.ARROW, text=name))
-    arrow.scale.x, arrow.scale.y, arrow.scale.z = 4.0, 5.0, 6.0
-    arrow.color = ColorRGBA(r=1.0, a=0.5)
-    arrow.points = [Point(x=1.0, y=2.0, z=3.0), Point(x=4.0, y=5.0, z=6.0)]
-    for marker in (geom, arrow):
-        marker.header.frame_id = 'map'
-    template = marker_topics.marker_array([
-        marker_topics.Marker(name, 3, Marker.CUBE, (1.0, 2.0, 3.0), (0.25, 0.5, 0.75, 1.0)),
-        marker_topics.Marker(
-            'forces', 1, Marker.ARROW, (4.0, 5.0, 6.0), (1.0, 0.0, 0.0, 0.5), name, corners=2
-        ),
-    ])  # fmt: skip
-    assert_same(fill(template, pose, ends), MarkerArray(markers=[geom, arrow]))
+def test_a_definition_without_one_of_its_types_is_refused():
+    with pytest.raises(ConfigError, match="lacks the type 'Pose'"):
+        MessageType('Pose pose\n').members('Pose')

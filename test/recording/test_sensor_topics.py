@@ -29,7 +29,7 @@ def test_messages_hold_the_readings(scene):
     simulation = Simulation(scene)
     name = next(iter(simulation.vehicles))
     states = StateTopics(simulation, DEFAULTS)
-    topics = {t.name.removeprefix(f'{name}/'): t for t in states.topics if not t.reliable}
+    topics = {t.name.removeprefix(f'{name}/'): t for t in states.topics if not t.quality.reliable}
     assert sorted(topics) == TOPICS[scene]
     suite = SensorSuite(simulation, name)
     for _ in range(3):

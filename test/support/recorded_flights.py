@@ -7,26 +7,27 @@ import numpy as np
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
-from fluid_sim_ros.messages import templates
-from fluid_sim_ros.messages.commands import DEFAULTS, Commands
+from fluid_sim_ros.messages.commands import DEFAULTS, MULTI_ARRAY, TWIST, Commands
 from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.recording.sink import RecordingSink
 
 
 def thrust_message(values):
     """Return a std_msgs/Float64MultiArray."""
-    message = Template(stamped=False).uint32(0).uint32(0).uint32(len(values))
-    return message.constants(list(values)).finish().bytes()
+    return Template.of(MULTI_ARRAY, {'data': values}).bytes()
 
 
 def wind_message(velocity_w, stamp_ns=0):
     """Return a geometry_msgs/TwistStamped in the frame map."""
-    message = templates.twist('map')
-    stamp = templates.StampBytes()
-    stamp.set(stamp_ns)
-    message.stamps[0][:] = stamp.view
-    message.blocks[0][:] = templates.as_bytes(np.array(velocity_w, dtype=float))
-    return message.bytes()
+    seconds, nanoseconds = divmod(stamp_ns, 10**9)
+    return Template.of(
+        TWIST,
+        {
+            'header.stamp': {'sec': seconds, 'nanosec': nanoseconds},
+            'header.frame_id': 'map',
+            'twist.linear': dict(zip('xyz', velocity_w, strict=True)),
+        },
+    ).bytes()
 
 
 class Pilot:

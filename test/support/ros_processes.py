@@ -84,6 +84,11 @@ def node(**parameters):
     return Process(NODE, **{key.replace('__', '.'): value for key, value in parameters.items()})
 
 
+def controller(kind, **parameters):
+    """Start an example controller: ``quad``, ``rov``, ``auv`` or ``plane``."""
+    return Process(f'fluid_sim_ros.ros.controllers.{kind}', **parameters)
+
+
 class Peer:
     """A ROS node in this process, with a context of its own and an executor in a thread."""
 

@@ -15,31 +15,28 @@ from typing import NamedTuple
 
 from geometry_msgs.msg import PoseStamped
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import JointState
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.gains import Gains
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.messages.commands import JOINT_STATE
 from fluid_sim_ros.messages.templates import StampBytes, Template
+from fluid_sim_ros.messages.topic import NEWEST, STATE
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.parameter_table import Table, declare, judge
-from fluid_sim_ros.ros.polled_group import PolledGroup
+from fluid_sim_ros.ros.raw import PolledSubscription, RawPublisher, WaitSet
 from fluid_sim_ros.ros.state_source import StateSource
 from fluid_sim_ros.ros.states import StampedState
 from fluid_sim_ros.simulation.plant import plant_of
 
-#: Longest wait before signals are looked at again [ns].
-_WAIT_NS = 50_000_000
-_RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
-#: Members of sensor_msgs/JointState after its header.
-_LISTS = ('name', 'position', 'velocity', 'effort')
+#: Longest wait before signals are looked at again [s].
+_WAIT = 0.05
+_POSE = 'geometry_msgs/msg/PoseStamped'
 
 
 class Answer(NamedTuple):
@@ -59,29 +56,19 @@ class Answer(NamedTuple):
     joints: Sequence[float] = ()
 
 
-def command_template(member: str, count: int) -> Template:
-    """Return sensor_msgs/JointState with one block: its list ``member``; the others are empty."""
-    template = Template().string('')
-    for name in _LISTS:
-        template.uint32(count if name == member else 0)
-        if name == member:
-            template.doubles(count)
-    return template.finish()
-
-
 class _Commands:
     """Publishes commands as one list of a JointState, with a stamp."""
 
     def __init__(self, node: Node, topic: str, member: str, count: int) -> None:
-        self._template = command_template(member, count)
+        self._template = Template.of(JOINT_STATE, {member: [0.0] * count}, [member])
         self._pack = struct.Struct(f'<{count}d').pack_into
-        self._publisher = node.create_publisher(JointState, topic, _RELIABLE)
+        self._publisher = RawPublisher(node, JOINT_STATE, topic, STATE)
 
     def publish(self, stamp: memoryview, values: Sequence[float]) -> None:
         """Send the values as the answer to the state of a stamp."""
         self._template.stamps[0][:] = stamp
         self._pack(self._template.blocks[0], 0, *values)
-        self._publisher.handle.publish_raw(self._template.bytes())
+        self._publisher.publish(self._template.bytes())
 
 
 class ControllerNode(Node, ABC):
@@ -145,11 +132,7 @@ class ControllerNode(Node, ABC):
         vehicle, name = self.vehicle, self.vehicle.name
         self._frames = ('', 'map', f'{name}/odom')
         self._states = StateSource(self, name, medium)
-        self._waypoint = self.create_subscription(
-            PoseStamped, f'{name}/cmd/waypoint', lambda _: None,
-            QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE),
-            callback_group=PolledGroup(), raw=True,
-        )  # fmt: skip
+        self._waypoint = PolledSubscription(self, _POSE, f'{name}/cmd/waypoint', NEWEST)
         self._thrusts = _Commands(
             self, f'{name}/cmd/thrust_stamped', 'effort', len(vehicle.thrusters)
         )
@@ -196,19 +179,15 @@ class ControllerNode(Node, ABC):
             f"vehicle '{self.vehicle.name}': {self.plant.mass:.2f} kg, "
             f'{len(self.vehicle.thrusters)} thrusters; waiting for {self._states.topic}'
         )
-        waypoint = self._waypoint.handle
-        handles = [*self._states.handles, waypoint]
-        wait_set = _rclpy.WaitSet(len(handles), 0, 0, 0, 0, 0, self.context.handle)
+        subscriptions = [*self._states.subscriptions, self._waypoint]
+        wait_set = WaitSet(self)
         while not self._ending:
-            wait_set.clear_entities()
-            for handle in handles:
-                wait_set.add_subscription(handle)
-            wait_set.wait(_WAIT_NS)
+            wait_set.wait(subscriptions, _WAIT)
             # every state is answered, in order, so that the same states get the same answers
             for stamped in self._states.take():
                 self._on_state(stamped)
-            if got := waypoint.take_message(PoseStamped, True):
-                self._on_waypoint(got[0])
+            if data := self._waypoint.take():
+                self._on_waypoint(data)
 
     def close(self) -> None:
         """Do nothing: a controller holds nothing that must be closed."""

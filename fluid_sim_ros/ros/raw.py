@@ -1,0 +1,251 @@
+"""
+Messages as bytes through rclpy: the one file that touches what rclpy keeps to itself.
+
+rclpy's own road is an executor that takes each message, turns it into Python objects and calls a
+function: 100 us and more per message. The loops of this package take and give bytes in the thread
+that steps, which costs 1 to 2 us. For that they need from rclpy:
+
+* the ``handle`` of a subscription: ``take_message`` takes a message now, without an executor;
+* the ``handle`` of a publisher: ``publish_raw`` sends bytes (``Publisher.publish`` does, too, at
+  three times the cost);
+* the ``WaitSet`` below the executor, to sleep until a message or a wake-up arrives;
+* ``Node._parameter_overrides``: what the user passed, before anything is declared. Only there can
+  a misspelt parameter be found.
+
+A handle must not be destroyed while it is used; here both happen in the thread that owns it.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rclpy.callback_groups import CallbackGroup
+from rclpy.duration import Duration
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos_overriding_options import QoSOverridingOptions
+
+from fluid_sim_ros.messages.topic import Quality
+from fluid_sim_ros.ros.message_types import message_class
+
+
+class _PolledGroup(CallbackGroup):
+    """Keeps the executor away from what a loop takes itself: it would take the messages first."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Return False: the executor never takes these."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Return False, as ``can_execute``."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Do nothing: no execution ever began."""
+
+
+class PolledSubscription:
+    """
+    A subscription whose messages the owner's thread takes when it wants them.
+
+    Parameters
+    ----------
+    node
+        Owner.
+    message, topic
+        Message type (``package/msg/Name``) and topic name.
+    quality
+        Quality of service that is asked for.
+    keep_all
+        Keep every message until it is taken, instead of the newest ``quality.depth``.
+    overridable
+        Users may override the quality by the parameters ``qos_overrides.<topic>...``.
+
+    Attributes
+    ----------
+    topic
+        Full name of the topic, after any remapping.
+
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        message: str,
+        topic: str,
+        quality: Quality,
+        keep_all: bool = False,
+        overridable: bool = False,
+    ) -> None:
+        self._node = node
+        self._class = message_class(message)
+        self._subscription = node.create_subscription(
+            self._class, topic, lambda _: None, _profile(quality, keep_all),
+            callback_group=_PolledGroup(), raw=True,
+            qos_overriding_options=_overriding(overridable),
+        )  # fmt: skip
+        self.handle = self._subscription.handle
+        self._take = self.handle.take_message
+        self.topic = str(self._subscription.topic_name)
+
+    def take(self) -> bytes | None:
+        """Return the oldest message that waits (CDR), or None."""
+        got = self._take(self._class, True)
+        return None if got is None else got[0]
+
+    def take_with_time(self) -> tuple[bytes, int] | None:
+        """Return the oldest message that waits (CDR) and when it was sent [ns, wall], or None."""
+        got = self._take(self._class, True)
+        return None if got is None else (got[0], got[1]['source_timestamp'])
+
+    def publisher_count(self) -> int:
+        """Return how many publishers of the topic are known."""
+        return int(self._subscription.get_publisher_count())
+
+    def destroy(self) -> None:
+        """Remove it from its node."""
+        self._node.destroy_subscription(self._subscription)
+
+
+class RawPublisher:
+    """
+    A publisher of messages that are bytes already.
+
+    Parameters
+    ----------
+    node
+        Owner.
+    message, topic
+        Message type (``package/msg/Name``) and topic name.
+    quality
+        Quality of service that is offered.
+    overridable
+        Users may override the quality by the parameters ``qos_overrides.<topic>...``.
+
+    Attributes
+    ----------
+    publish
+        Sends a message, given as ``bytes`` (CDR).
+
+    """
+
+    def __init__(
+        self, node: Node, message: str, topic: str, quality: Quality, overridable: bool = False
+    ) -> None:
+        self._node = node
+        self._publisher = node.create_publisher(
+            message_class(message), topic, _profile(quality),
+            qos_overriding_options=_overriding(overridable),
+        )  # fmt: skip
+        self.publish = self._publisher.handle.publish_raw
+
+    def subscription_count(self) -> int:
+        """Return how many subscriptions of the topic are known."""
+        return int(self._publisher.get_subscription_count())
+
+    def await_delivery(self, timeout: float) -> None:
+        """
+        Wait until what was published has arrived.
+
+        Parameters
+        ----------
+        timeout
+            Longest wait [s].
+
+        """
+        self._publisher.wait_for_all_acked(Duration(seconds=timeout))
+
+    def destroy(self) -> None:
+        """Remove it from its node."""
+        self._node.destroy_publisher(self._publisher)
+
+
+class WaitSet:
+    """
+    Sleeps until one of several subscriptions has a message, or another thread wakes it.
+
+    Parameters
+    ----------
+    node
+        Owner of the subscriptions.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._guard = node.create_guard_condition(lambda: None, callback_group=_PolledGroup())
+        self._size = 0
+        self._wait_set: Any = None
+
+    def wait(self, subscriptions: Sequence[PolledSubscription], timeout: float) -> bool:
+        """
+        Block until a message is there.
+
+        Parameters
+        ----------
+        subscriptions
+            What to wait for.
+        timeout
+            Longest wait [s].
+
+        Returns
+        -------
+        bool
+            Whether ``wake`` ended the wait.
+
+        """
+        if self._wait_set is None or len(subscriptions) > self._size:
+            self._size = len(subscriptions)
+            context = self._node.context.handle
+            self._wait_set = _rclpy.WaitSet(self._size, 1, 0, 0, 0, 0, context)
+        wait_set = self._wait_set
+        wait_set.clear_entities()
+        for subscription in subscriptions:
+            wait_set.add_subscription(subscription.handle)
+        wait_set.add_guard_condition(self._guard.handle)
+        wait_set.wait(int(timeout * 1e9))
+        return bool(wait_set.get_ready_entities('guard_condition'))
+
+    def wake(self) -> None:
+        """End a ``wait`` from another thread."""
+        self._guard.trigger()
+
+    def destroy(self) -> None:
+        """Remove the wake-up from its node."""
+        self._node.destroy_guard_condition(self._guard)
+
+
+def parameter_overrides(node: Node) -> Mapping[str, Parameter]:
+    """
+    Return the parameters that the user passed on the command line or in files.
+
+    Parameters
+    ----------
+    node
+        The node that they are for.
+
+    Returns
+    -------
+    Mapping
+        By name; also those that are not declared.
+
+    """
+    overrides: Mapping[str, Parameter] = node._parameter_overrides
+    return overrides
+
+
+def _profile(quality: Quality, keep_all: bool = False) -> QoSProfile:
+    reliability, durability = ReliabilityPolicy, DurabilityPolicy
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST,
+        depth=quality.depth,
+        reliability=reliability.RELIABLE if quality.reliable else reliability.BEST_EFFORT,
+        durability=(
+            durability.TRANSIENT_LOCAL if quality.transient_local else durability.VOLATILE
+        ),
+    )
+
+
+def _overriding(wanted: bool) -> QoSOverridingOptions | None:
+    return QoSOverridingOptions.with_default_policies() if wanted else None

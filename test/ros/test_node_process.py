@@ -1,0 +1,73 @@
+"""The node as a process: signals, exit codes, two of them, and wrong starts."""
+
+import signal
+
+import pytest
+from nav_msgs.msg import Odometry
+
+from test.support.ros_processes import NODE, Peer, Process, error_lines, node, wait_until
+
+pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('pacing', ['realtime', 'free', 'lockstep'])
+def test_a_signal_ends_the_node_with_exit_code_0(number, pacing):
+    with Peer() as peer:
+        odometry = peer.collect(Odometry, 'x500/odom')
+        with node(scene='quadrotor', pacing=pacing) as process:
+            wait_until(lambda: odometry, 'odometry')
+            process.signal(number)
+            assert process.wait(10) == 0
+            assert not error_lines(process.output)
+
+
+def test_two_instances_in_namespaces_do_not_meet():
+    arguments = ('--ros-args', '-r', '__ns:=/one')
+    with Peer() as peer:
+        one = peer.collect(Odometry, '/one/sphere/odom')
+        two = peer.collect(Odometry, '/sphere/odom')
+        with Process(NODE, *arguments, scene='sphere'), node(scene='sphere'):
+            wait_until(lambda: len(one) > 3 and len(two) > 3, 'both odometries')
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'words'),
+    [
+        ({'scene': 'atlantis'}, "scene 'atlantis' is not known; scenes: "),
+        ({'scnee': 'rov'}, "parameter 'scnee' is not known; parameters: scene"),
+        ({'pacing': 'lock'}, 'allowed: realtime, free, lockstep'),
+        ({'use_sim_time': True}, 'must be false for this node'),
+        ({'scene': 'sphere', 'odom__rate': 333.0}, 'does not divide the step rate'),
+        ({'scene': 'sphere', 'pacing': 'lockstep'}, 'lockstep needs a topic to wait for'),
+        (
+            {'scene': 'quadrotor', 'pacing': 'lockstep', 'lockstep__wait_for': '[a/b]'},
+            "'a/b' is no command topic of this scene; it has: x500/cmd/thrust",
+        ),
+        (
+            {'scene': 'quadrotor', 'pacing': 'lockstep', 'odom__rate': 50.0},
+            'not a multiple of the',
+        ),
+    ],
+)
+def test_a_wrong_start_is_one_line_and_exit_code_2(parameters, words):
+    with node(**parameters) as process:
+        assert process.wait() == 2
+    (line,) = [line for line in process.lines if line.startswith('fluid_sim_node: error:')]
+    assert words in line
+    assert 'Traceback' not in process.output
+
+
+def test_a_wrong_domain_is_one_line(monkeypatch):
+    monkeypatch.setenv('ROS_DOMAIN_ID', 'seven')
+    with node(scene='sphere') as process:
+        assert process.wait() == 2
+    assert process.lines == ["fluid_sim_node: error: ROS_DOMAIN_ID is 'seven'; allowed: 0 to 232"]
+
+
+def test_a_scene_file_as_parameter_file_is_refused(tmp_path):
+    path = tmp_path / 'scene.yaml'
+    path.write_text('model: rov\nschedule: [{at: 1}]\n')
+    with Process(NODE, '--ros-args', '--params-file', str(path)) as process:
+        assert process.wait() == 2
+    assert "belongs in the parameter 'scene'" in process.output
