@@ -28,9 +28,9 @@ from fluid_sim_ros.loop.autopilot_port import (
 )
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
-from fluid_sim_ros.mavlink.hil_messages import dialect
+from fluid_sim_ros.mavlink.px4.hil_messages import dialect
+from fluid_sim_ros.mavlink.px4.wire import Frame
 from fluid_sim_ros.mavlink.sockets import Watch
-from fluid_sim_ros.mavlink.wire import Frame
 from fluid_sim_ros.step_clock import NEVER
 
 SCENE = 'x500_ground'

@@ -74,7 +74,7 @@ class Flight:
             stack.callback(self.bridge.close)
             if run.program:
                 from fluid_sim_ros.mavlink.mapping import load_mapping
-                from fluid_sim_ros.mavlink.program import Program
+                from fluid_sim_ros.mavlink.program.program import Program
 
                 options, home = run.options, self._simulation.scene.home
                 file, _ = load_mapping(options.protocol, self.bridge.vehicle, options.mapping)

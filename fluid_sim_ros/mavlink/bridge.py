@@ -9,7 +9,7 @@ from fluid_sim_ros.loop.autopilot_port import (
     Bridge,
     Surroundings,
 )
-from fluid_sim_ros.mavlink.ardupilot import ArduPilotBridge
+from fluid_sim_ros.mavlink.ardupilot.bridge import ArduPilotBridge
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
 from fluid_sim_ros.simulation import Simulation
 
@@ -54,7 +54,7 @@ def open_bridge(
     actuators = ActuatorMap(file, path, vehicle)
     if options.protocol == 'px4':
         # only this protocol needs pymavlink
-        from fluid_sim_ros.mavlink.px4 import Px4Bridge
+        from fluid_sim_ros.mavlink.px4.bridge import Px4Bridge
 
         return Px4Bridge(simulation, options, surroundings, actuators, file)
     return ArduPilotBridge(simulation, options, surroundings, actuators)

@@ -13,7 +13,7 @@ from fluid_sim_ros.cli.flight import AutopilotRun
 from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
 from fluid_sim_ros.mavlink.mapping import load_mapping
-from fluid_sim_ros.mavlink.program import Program, command_line
+from fluid_sim_ros.mavlink.program.program import Program, command_line
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.schema.scene import Home

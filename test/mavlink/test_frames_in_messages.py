@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.mavlink.hil_messages import HilWriter
-from fluid_sim_ros.mavlink.hil_state import HilState
-from fluid_sim_ros.mavlink.json_packets import write_state
+from fluid_sim_ros.mavlink.ardupilot.json_packets import write_state
 from fluid_sim_ros.mavlink.mapping import load_mapping
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
+from fluid_sim_ros.mavlink.px4.hil_state import HilState
 from fluid_sim_ros.mavlink.sticks import Sticks
 from test.support.autopilots import hil_wire
 from test.support.autopilots.autopilot_peers import Flight

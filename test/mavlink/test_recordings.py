@@ -5,10 +5,10 @@ import struct
 
 import pytest
 
-from fluid_sim_ros.mavlink.hil_answers import HilReader
-from fluid_sim_ros.mavlink.hil_messages import HilWriter, SensorReadings, dialect
-from fluid_sim_ros.mavlink.json_packets import JsonState, read_servo_packet, write_state
+from fluid_sim_ros.mavlink.ardupilot.json_packets import JsonState, read_servo_packet, write_state
 from fluid_sim_ros.mavlink.ned import euler
+from fluid_sim_ros.mavlink.px4.hil_answers import HilReader
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter, SensorReadings, dialect
 from test.support.autopilots import hil_wire
 from test.support.autopilots.json_reader import JsonReader
 from test.support.autopilots.recordings import FROM_AUTOPILOT, TO_AUTOPILOT, portions

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import common as dialect
 
-from fluid_sim_ros.mavlink.wire import Frame
+from fluid_sim_ros.mavlink.px4.wire import Frame
 
 numbers = st.floats(width=32, allow_nan=False)
 times = st.integers(0, 2**64 - 1)

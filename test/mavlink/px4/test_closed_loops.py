@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from fluid_sim_ros.mavlink import px4 as px4_bridge
+from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
 from test.support.autopilots.autopilot_peers import Flight
 from test.support.autopilots.px4_pilots import Plane, Quad, Submarine
 from test.support.autopilots.px4_stand_in import Px4

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
-from fluid_sim_ros.mavlink.hil_messages import dialect
+from fluid_sim_ros.mavlink.px4.hil_messages import dialect
 from test.support.autopilots.autopilot_peers import Flight, waited
 
 IDLE = [0.0] * 4
@@ -87,10 +87,10 @@ def test_a_timestep_that_does_not_divide_4_ms_is_refused():
 
 
 def test_a_missing_extra_is_named(monkeypatch):
-    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4')
-    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_answers')
-    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_messages')
-    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.hil_state')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4.bridge')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4.hil_answers')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4.hil_messages')
+    monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4.hil_state')
     monkeypatch.setitem(sys.modules, 'pymavlink.dialects.v20', None)
     with pytest.raises(MissingExtraError, match='an autopilot needs pymavlink'):
         Flight('x500_ground', 'px4')

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from fluid_sim_ros.mavlink import px4 as px4_bridge
+from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
 from test.support.autopilots import hil_wire
 from test.support.autopilots.autopilot_peers import Flight, waited
 from test.support.autopilots.px4_stand_in import Px4

@@ -13,11 +13,11 @@ from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
-from fluid_sim_ros.mavlink.hil_answers import Actuators, HilReader
-from fluid_sim_ros.mavlink.hil_messages import HilWriter
-from fluid_sim_ros.mavlink.hil_state import HilState
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import ActuatorMap, AutopilotFile
+from fluid_sim_ros.mavlink.px4.hil_answers import Actuators, HilReader
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
+from fluid_sim_ros.mavlink.px4.hil_state import HilState
 from fluid_sim_ros.mavlink.sockets import TcpServer
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.simulation import Simulation

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pymavlink.dialects.v20 import common as dialect
 
 from fluid_sim_ros.mavlink.ned import Quaternion, Vector3
-from fluid_sim_ros.mavlink.wire import Frame
+from fluid_sim_ros.mavlink.px4.wire import Frame
 
 #: Bits of HIL_SENSOR.fields_updated; PX4 takes a group only with all of its bits.
 ACCELEROMETER, GYRO, MAGNETOMETER = 0x007, 0x038, 0x1C0

@@ -5,9 +5,9 @@ from fractions import Fraction
 from typing import TypeVar
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.mavlink.hil_messages import HilWriter, SensorReadings
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter, SensorReadings
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
 from fluid_sim_ros.physics.environment.atmosphere import (

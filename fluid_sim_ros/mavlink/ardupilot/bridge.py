@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
-from fluid_sim_ros.mavlink.json_packets import (
+from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     LONGEST_PACKET,
     JsonState,
     ServoPacket,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from pymavlink.dialects.v20 import common as dialect
 
-from fluid_sim_ros.mavlink.wire import Frame
+from fluid_sim_ros.mavlink.px4.wire import Frame
 
 #: First byte of a message of MAVLink 1.
 MAVLINK1 = 0xFE

@@ -1,0 +1,1 @@
+"""ArduPilot: JSON over UDP, in lockstep led by the autopilot."""

@@ -1,0 +1,1 @@
+"""PX4: MAVLink HIL over TCP, in lockstep led by the simulation."""
