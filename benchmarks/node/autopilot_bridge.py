@@ -121,7 +121,7 @@ def measure(protocol: str, exchanges: int) -> dict[str, float]:
     runner = Runner(simulation, NoSource(), [], pacing)
     rate = 250 if protocol == 'px4' else ARDUPILOT_RATE
 
-    def fly(count: int) -> None:
+    def exchange(count: int) -> None:
         target, runner.stopped = bridge.counters.answered + count, False
         runner.housekeeping = lambda: bridge.counters.answered >= target and runner.stop()
         runner.run(NEVER)
@@ -139,11 +139,11 @@ def measure(protocol: str, exchanges: int) -> dict[str, float]:
     )
     process.start()
     try:
-        fly(_WARM_UP)
+        exchange(_WARM_UP)
         pacing.overheads.clear()
         bare.load_state(simulation.save_state())
         for _ in range(exchanges // _ROUND):
-            bridged.append(wall_seconds(lambda: fly(_ROUND)))
+            bridged.append(wall_seconds(lambda: exchange(_ROUND)))
             alone.append(wall_seconds(step_alone))
     finally:
         process.terminate()

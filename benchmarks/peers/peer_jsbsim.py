@@ -142,7 +142,7 @@ def jsbsim_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
     def prepare(kinds: tuple[int, ...], timestep: float) -> Callable[[], Callable[[], Array]]:
         steps = round(SAMPLE / timestep)
 
-        def fly() -> Array:
+        def simulate() -> Array:
             out, run = np.empty((len(TIMES), 3)), fdm.run
             for row in out:
                 for _ in range(steps):
@@ -152,7 +152,7 @@ def jsbsim_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
 
         def start() -> Callable[[], Array]:
             begin(fdm, task, kinds, timestep)
-            return fly
+            return simulate
 
         return start
 

@@ -125,7 +125,7 @@ def stock_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
         model = mujoco.MjModel.from_xml_string(stock_model(task, integrator, timestep))
         data, steps = mujoco.MjData(model), round(SAMPLE / timestep)
 
-        def fly() -> Array:
+        def simulate() -> Array:
             out = np.empty((len(TIMES), 3))
             for row in out:
                 mujoco.mj_step(model, data, steps)
@@ -134,7 +134,7 @@ def stock_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
 
         def start() -> Callable[[], Array]:
             mujoco.mj_resetDataKeyframe(model, data, 0)
-            return fly
+            return simulate
 
         return start
 

@@ -58,7 +58,7 @@ def rotorpy_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
     def prepare(solver: dict[str, Any], timestep: float) -> Callable[[], Callable[[], Array]]:
         vehicle = Multirotor(parameters(task, speed), integrator_kwargs=solver)
 
-        def fly() -> Array:
+        def simulate() -> Array:
             state, out = first, np.empty((len(TIMES), 3))
             for row in out:
                 for _ in range(round(SAMPLE / timestep)):
@@ -66,7 +66,7 @@ def rotorpy_runs(task: AirTask, timesteps: Iterable[float]) -> list[Run]:
                 row[:] = state['x']
             return out
 
-        return lambda: fly
+        return lambda: simulate
 
     return [
         Run(name, milliseconds(h), prepare(solver, h), reference)

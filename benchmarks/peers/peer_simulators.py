@@ -94,9 +94,9 @@ def timing(run: Run) -> tuple[float, float]:
     count = 0
     while wall < _LEAST_WALL and count < _MOST_RUNS:
         count += 1
-        fly = run.prepare()
+        simulate = run.prepare()
         begin, begin_wall = time.process_time(), time.perf_counter()
-        fly()
+        simulate()
         processor += time.process_time() - begin
         wall += time.perf_counter() - begin_wall
     scale = 1e6 / (count * DURATION)

@@ -168,12 +168,12 @@ def scipy_runs(
     def prepare(method: str, tolerance: float) -> Callable[[], Callable[[], Array]]:
         options: dict[str, Any] = {'method': method, 'rtol': tolerance, 'atol': 1e-3 * tolerance}
 
-        def fly() -> Array:
+        def simulate() -> Array:
             solved = solve_ivp(rates, (0, TIMES[-1]), start, t_eval=TIMES, **options)
             positions: Array = solved.y[:3].T
             return positions
 
-        return lambda: fly
+        return lambda: simulate
 
     return [
         Run(f'SciPy {method}', f'rtol {tolerance:g}', prepare(method, tolerance), reference)

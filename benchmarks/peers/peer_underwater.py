@@ -134,7 +134,7 @@ def plain_runs(timesteps: Iterable[float], tolerances: Iterable[float], exact: A
     def prepare(timestep: float) -> Callable[[], Callable[[], Array]]:
         span = np.array([0, timestep])
 
-        def fly() -> Array:
+        def simulate() -> Array:
             state, out = _START, np.empty((len(TIMES), 3))
             for row in out:
                 for _ in range(round(SAMPLE / timestep)):
@@ -142,7 +142,7 @@ def plain_runs(timesteps: Iterable[float], tolerances: Iterable[float], exact: A
                 row[:] = state[:3]
             return out
 
-        return lambda: fly
+        return lambda: simulate
 
     return [
         *scipy_runs(_START, rates, exact, tolerances),

@@ -35,7 +35,7 @@ FLIGHTS = {
 }
 
 
-def fly(scene: str, **settings: Any) -> str:
+def flight_hash(scene: str, **settings: Any) -> str:
     """Return the hash of a scene's flight under seeded commands."""
     simulation = Simulation(scene, seed=7, **settings)
     rng = np.random.default_rng(11)
@@ -66,7 +66,7 @@ def fly(scene: str, **settings: Any) -> str:
 def outcome(scene: str, **settings: Any) -> str:
     """Return the hash of a flight, or the name of the error that ended it."""
     try:
-        return fly(scene, **settings)
+        return flight_hash(scene, **settings)
     except (FluidSimError, ValueError) as error:  # an error is a result to compare as well
         return type(error).__name__
 

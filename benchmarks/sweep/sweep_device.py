@@ -50,7 +50,7 @@ _WARM_UP = 0.01
 _TIMED = 'quadrotor'
 
 
-def fly(keys: dict[str, Any], **how: Any) -> tuple[dict[str, Any], Any]:
+def sweep_rows(keys: dict[str, Any], **how: Any) -> tuple[dict[str, Any], Any]:
     """Return the result of a sweep, and its table."""
     import pyarrow.parquet as pq
 
@@ -62,7 +62,7 @@ def fly(keys: dict[str, Any], **how: Any) -> tuple[dict[str, Any], Any]:
 def error_of(keys: dict[str, Any], device: str, runs: int, seconds: float) -> dict[str, Any]:
     """Return how far the device is from the processor, in all runs."""
     keys = {**keys, 'runs': runs, 'duration': seconds, 'seed': 1}
-    _, table = fly(keys, device=device)
+    _, table = sweep_rows(keys, device=device)
     check = against_cpu(CaseRunner(SweepFile.model_validate(keys)), table, most=runs)
     return {'duration_s': seconds, **check}
 
@@ -74,11 +74,11 @@ def throughput(device: str, worlds: int, rounds: int, seconds: float) -> dict[st
     keys = {**_SWEEPS[_TIMED], 'vary': vary, 'runs': worlds, 'duration': seconds}
     simulation_steps = CaseRunner(SweepFile.model_validate(keys)).check()
     on = {'device': {'device': device, 'workers': worlds}, 'threads': {}}
-    fly({**keys, 'duration': _WARM_UP}, **on['device'])  # kernels are compiled
+    sweep_rows({**keys, 'duration': _WARM_UP}, **on['device'])  # kernels are compiled
     walls: dict[str, list[float]] = {name: [] for name in on}
     for _ in range(rounds):
         for name, how in on.items():
-            walls[name].append(fly(keys, **how)[0]['wall_s'])
+            walls[name].append(sweep_rows(keys, **how)[0]['wall_s'])
     speed = {name: worlds * simulation_steps / statistics.median(w) for name, w in walls.items()}
     return {
         'scene': _TIMED,

@@ -44,7 +44,7 @@ def bare(workers: int) -> Callable[[int], None]:
     simulations = [Simulation(_SCENE) for _ in range(workers)]
     steps = round(_SECONDS / simulations[0].timestep)
 
-    def fly(runs: int) -> None:
+    def sweep_runs(runs: int) -> None:
         chunks = iter(range(0, runs, _CHUNK))
 
         def loop(simulation: Simulation) -> None:
@@ -59,13 +59,13 @@ def bare(workers: int) -> Callable[[int], None]:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(loop, simulations))
 
-    return fly
+    return sweep_runs
 
 
 def swept(workers: int) -> Callable[[int], None]:
     """Return what flies so many runs by a sweep, its table included."""
 
-    def fly(runs: int) -> None:
+    def sweep_runs(runs: int) -> None:
         sweep = SweepFile.model_validate({
             'scene': _SCENE, 'duration': _SECONDS, 'sample_rate': 5, 'runs': runs,
             'vary': {'current.x': {'normal': [0, 0.5]}},
@@ -75,19 +75,19 @@ def swept(workers: int) -> Callable[[int], None]:
         if result['status'] != {'ok': runs}:
             raise SystemExit(f'runs ended badly: {result["status"]}')
 
-    return fly
+    return sweep_runs
 
 
 def child(
     prepare: Callable[[int], Callable[[int], None]], workers: int, runs: int, pipe: Connection
 ) -> None:
     """Get ready, wait for the start, fly, and tell the processor time [s]."""
-    fly = prepare(workers)
-    fly(20)  # imports, caches
+    sweep_runs = prepare(workers)
+    sweep_runs(20)  # imports, caches
     pipe.send('ready')
     pipe.recv()
     before = resource.getrusage(resource.RUSAGE_SELF)
-    fly(runs)
+    sweep_runs(runs)
     after = resource.getrusage(resource.RUSAGE_SELF)
     pipe.send(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
 

@@ -15,7 +15,15 @@ _SCENE, _SECONDS = 'x500_ground', 10.0
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add what ``chosen_run`` reads."""
+    """
+    Add what ``chosen_run`` reads.
+
+    Parameters
+    ----------
+    parser
+        Of a subcommand.
+
+    """
     group = parser.add_argument_group('autopilot')
     group.add_argument(
         '--autopilot', choices=('px4', 'ardupilot'), help='fly with it, in lockstep'
@@ -36,7 +44,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_doctor_options(parser: argparse.ArgumentParser) -> None:
-    """Add what ``look`` reads."""
+    """
+    Add what ``autopilot_table`` reads.
+
+    Parameters
+    ----------
+    parser
+        Of ``fluid_sim doctor``.
+
+    """
     add_options(parser)
     parser.add_argument(
         '--seconds', type=float, default=_SECONDS, metavar='S',
@@ -47,6 +63,11 @@ def add_doctor_options(parser: argparse.ArgumentParser) -> None:
 def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
     """
     Return who flies by the options of ``add_options``, or None.
+
+    Parameters
+    ----------
+    arguments
+        Parsed options.
 
     Raises
     ------
@@ -71,8 +92,26 @@ def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
     return AutopilotRun(AutopilotOptions(arguments.autopilot, **chosen), arguments.program or '')
 
 
-def look(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':
-    """Listen for an autopilot; return what was seen of it as a table and ready for JSON."""
+def autopilot_table(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':
+    """
+    Listen for an autopilot; return what was seen of it as a table and ready for JSON.
+
+    Parameters
+    ----------
+    arguments
+        Parsed options of ``add_doctor_options``.
+
+    Returns
+    -------
+    table, seen
+        For the terminal, and ready for JSON.
+
+    Raises
+    ------
+    ConfigError
+        If no autopilot is named, or an option is wrong.
+
+    """
     from rich.markup import escape
     from rich.table import Table
 
@@ -81,7 +120,7 @@ def look(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':
     run = chosen_run(arguments)
     if run is None:
         raise ConfigError('the doctor looks for an autopilot with --autopilot')
-    seen = cli_flight.look(run, arguments.scene or _SCENE, arguments.seconds)
+    seen = cli_flight.listen_to_autopilot(run, arguments.scene or _SCENE, arguments.seconds)
     table = Table('what', 'found', title=f'fluid_sim doctor --autopilot {arguments.autopilot}')
     for name, value in seen.items():
         shown = '\n'.join(map(str, value)) if isinstance(value, list) else str(value)

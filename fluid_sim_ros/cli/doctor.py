@@ -65,7 +65,15 @@ class Row:
 
 
 def examine() -> list[Row]:
-    """Run every check."""
+    """
+    Run every check.
+
+    Returns
+    -------
+    rows
+        In the order of the table.
+
+    """
     base = [_python(), _mujoco(), _plugin_library(), _data(), _compiler()]
     rclpy = _ros()
     ros = [rclpy, _messages(), _domain(rclpy.state), _discovery(), _shared_memory()]
@@ -73,12 +81,28 @@ def examine() -> list[Row]:
 
 
 def works(rows: Sequence[Row]) -> bool:
-    """Return whether nothing is broken; what is merely absent does not count."""
+    """
+    Return whether nothing is broken; what is merely absent does not count.
+
+    Parameters
+    ----------
+    rows
+        Of ``examine``.
+
+    """
     return all(row.state != 'broken' for row in rows)
 
 
 def table(rows: Sequence[Row]) -> 'Table':
-    """Return the rows as a table for the terminal."""
+    """
+    Return the rows as a table for the terminal.
+
+    Parameters
+    ----------
+    rows
+        Of ``examine``.
+
+    """
     from rich.markup import escape
     from rich.table import Column, Table
 

@@ -68,7 +68,22 @@ class Flight:
 
     @contextmanager
     def of(self, runner: Runner, run: AutopilotRun) -> Iterator[None]:
-        """Fly the runner in this block; end the program and close the socket behind it."""
+        """
+        Fly the runner in this block; end the program and close the socket behind it.
+
+        Parameters
+        ----------
+        runner
+            Steps the simulation with this flight's pacing.
+        run
+            By whom.
+
+        Returns
+        -------
+        context manager
+            In which the runner is run.
+
+        """
         self._runner = runner
         with ExitStack() as stack:
             stack.callback(self.bridge.close)
@@ -104,9 +119,23 @@ class Flight:
             self._say(line)
 
 
-def look(run: AutopilotRun, scene: str, seconds: float) -> dict[str, Any]:
+def listen_to_autopilot(run: AutopilotRun, scene: str, seconds: float) -> dict[str, Any]:
     """
     Listen for an autopilot for a while and return what was seen of it.
+
+    Parameters
+    ----------
+    run
+        Who is listened for.
+    scene
+        Name or file.
+    seconds
+        Wall time to listen [s].
+
+    Returns
+    -------
+    dict
+        State of the bridge, its counters, simulated time [s] and the lines of its reports.
 
     Raises
     ------

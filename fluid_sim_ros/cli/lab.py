@@ -21,7 +21,17 @@ _QUICK = (0.02, 0.01, 0.005, 0.002)
 
 
 def add_parsers(commands: Any, show: Show) -> None:
-    """Add the subcommands to the parser of ``fluid_sim``."""
+    """
+    Add the subcommands to the parser of ``fluid_sim``.
+
+    Parameters
+    ----------
+    commands
+        Subparsers of ``fluid_sim``.
+    show
+        Shows table and JSON.
+
+    """
 
     def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
         return add_command(commands, name, text, function, show)
@@ -102,7 +112,15 @@ def _add_advise(advise: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def progress() -> Iterator['Report']:
-    """Give a function that shows how far a measurement is, on standard error."""
+    """
+    Give a function that shows how far a measurement is, on standard error.
+
+    Returns
+    -------
+    context manager
+        Gives a function that takes what is done, how many, and of how many.
+
+    """
     with progress_bar('{task.completed}/{task.total}') as bar:
         tasks: dict[str, Any] = {}
 

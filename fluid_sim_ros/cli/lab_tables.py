@@ -8,7 +8,22 @@ _MOST = 6
 
 
 def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
-    """Return the Pareto fronts as a table."""
+    """
+    Return the Pareto fronts as a table.
+
+    Parameters
+    ----------
+    found
+        Results of charts.
+    files
+        What was written.
+
+    Returns
+    -------
+    renderable
+        For rich.
+
+    """
     from rich.console import Group
     from rich.markup import escape
     from rich.table import Table
@@ -31,7 +46,22 @@ def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
 
 
 def advice_table(advice: dict[str, Any], asked: str) -> Any:
-    """Return the candidates as a table and the choice in words; ``asked`` is the metric's name."""
+    """
+    Return the candidates as a table and the choice in words; ``asked`` is the metric's name.
+
+    Parameters
+    ----------
+    advice
+        Result of ``lab.advise``.
+    asked
+        Name of the metric that the user asked for.
+
+    Returns
+    -------
+    renderable
+        For rich.
+
+    """
     from rich.console import Group
     from rich.markup import escape
     from rich.table import Table

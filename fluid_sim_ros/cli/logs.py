@@ -14,7 +14,17 @@ DAMAGED = 1
 
 
 def add_parsers(commands: Any, show: Show) -> None:
-    """Add the subcommands to the parser of ``fluid_sim``."""
+    """
+    Add the subcommands to the parser of ``fluid_sim``.
+
+    Parameters
+    ----------
+    commands
+        Subparsers of ``fluid_sim``.
+    show
+        Shows table and JSON.
+
+    """
 
     def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
         parser = add_command(commands, name, text, function, show)

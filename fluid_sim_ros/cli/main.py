@@ -37,7 +37,20 @@ class _Parser(argparse.ArgumentParser):
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line; return the exit code."""
+    """
+    Run the command line; return the exit code.
+
+    Parameters
+    ----------
+    argv
+        Words after the program's name; default: those of this process.
+
+    Returns
+    -------
+    int
+        0, 1 or 2 as the module says; 130 after Ctrl-C.
+
+    """
     parser = _build_parser()
     arguments, rest = parser.parse_known_args(argv)
     if rest and arguments.command != 'demo':
@@ -172,7 +185,7 @@ def _doctor(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.cli.scene import examine_scene
 
     if arguments.autopilot:
-        table, seen = autopilot.look(arguments)
+        table, seen = autopilot.autopilot_table(arguments)
         show(arguments.json, table, seen)
         return 0
     rows = doctor.examine() if arguments.scene is None else examine_scene(arguments.scene)

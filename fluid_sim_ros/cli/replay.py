@@ -19,7 +19,15 @@ DIFFERENT = 1
 
 
 def add_options(replay: argparse.ArgumentParser) -> None:
-    """Add the options of ``fluid_sim replay`` to its parser."""
+    """
+    Add the options of ``fluid_sim replay`` to its parser.
+
+    Parameters
+    ----------
+    replay
+        Parser of the subcommand.
+
+    """
     replay.add_argument(
         '--resimulate', action='store_true',
         help='fly its commands again and compare every state (exit code 1: a difference)',
@@ -55,7 +63,22 @@ def add_options(replay: argparse.ArgumentParser) -> None:
 
 
 def replay(arguments: argparse.Namespace, show: Show) -> int:
-    """Run ``fluid_sim replay``; return the exit code."""
+    """
+    Run ``fluid_sim replay``; return the exit code.
+
+    Parameters
+    ----------
+    arguments
+        Parsed options.
+    show
+        Shows table and JSON.
+
+    Returns
+    -------
+    int
+        Exit code.
+
+    """
     from fluid_sim_ros.recording.reader import open_log
 
     log = open_log(arguments.log)

@@ -35,6 +35,13 @@ class Watcher:
     """
     A sink that keeps the largest fluid force on each vehicle, and shows the progress.
 
+    Parameters
+    ----------
+    simulation
+        What is watched.
+    progress
+        Where warnings and the progress are shown.
+
     Attributes
     ----------
     period
@@ -55,7 +62,15 @@ class Watcher:
         self._shown_at = 0.0
 
     def write(self, simulation: Simulation) -> None:
-        """Look at the forces at this step boundary."""
+        """
+        Look at the forces at this step boundary.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+
+        """
         rows = simulation.observe(forces=True)
         force = np.linalg.norm(rows[:, nat.TOTAL][:, :3], axis=1)
         self.largest_at[force > self.largest] = simulation.time
@@ -172,7 +187,15 @@ def _recording(
 
 
 def summary_table(result: dict[str, Any]) -> Table:
-    """Return the table that ``fluid_sim run`` ends with."""
+    """
+    Return the table that ``fluid_sim run`` ends with.
+
+    Parameters
+    ----------
+    result
+        Of ``run_scene``.
+
+    """
     table = Table(
         'vehicle', r'position \[m]', r'velocity \[m/s]', 'largest fluid force',
         title=(

@@ -19,7 +19,20 @@ _SOURCES = {
 
 
 def examine_scene(scene: str | Path) -> list[Row]:
-    """Load a scene and say what its flow is made of."""
+    """
+    Load a scene and say what its flow is made of.
+
+    Parameters
+    ----------
+    scene
+        Name, or path of an MJCF or scene file.
+
+    Returns
+    -------
+    rows
+        As of ``doctor.examine``.
+
+    """
     try:
         simulation = Simulation(scene)
     except FluidSimError as error:

@@ -22,7 +22,28 @@ def add_command(
     function: Callable[[argparse.Namespace, Show], int],
     show: Show,
 ) -> argparse.ArgumentParser:
-    """Add a subcommand with --json; a package that it lacks becomes one line of what to do."""
+    """
+    Add a subcommand with --json; a package that it lacks becomes one line of what to do.
+
+    Parameters
+    ----------
+    commands
+        Subparsers of ``fluid_sim``.
+    name
+        Of the subcommand.
+    text
+        What it does, in a line.
+    function
+        Runs it: takes parsed options and ``show``, returns the exit code.
+    show
+        Shows table and JSON.
+
+    Returns
+    -------
+    ArgumentParser
+        Of the subcommand, with ``--json``.
+
+    """
 
     def run(arguments: argparse.Namespace) -> int:
         with needed_for(name):
@@ -35,7 +56,15 @@ def add_command(
 
 
 def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
-    """Return a bar on standard error, so that standard output holds the result only."""
+    """
+    Return a bar on standard error, so that standard output holds the result only.
+
+    Parameters
+    ----------
+    *columns
+        Of rich, between the bar and the remaining time.
+
+    """
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 

@@ -10,7 +10,17 @@ FAILED = 1
 
 
 def add_parser(commands: Any, show: Show) -> None:
-    """Add the subcommand to the parser of ``fluid_sim``."""
+    """
+    Add the subcommand to the parser of ``fluid_sim``.
+
+    Parameters
+    ----------
+    commands
+        Subparsers of ``fluid_sim``.
+    show
+        Shows table and JSON.
+
+    """
     text = 'run a scene many times with different numbers, into a Parquet table'
     parser = add_command(commands, 'sweep', text, _sweep, show)
     parser.add_argument('file', metavar='FILE', type=Path, help='YAML file of the sweep')

@@ -8,7 +8,17 @@ from fluid_sim_ros.cli.shared import Show, add_command
 
 
 def add_parser(commands: Any, show: Show) -> None:
-    """Add ``new-vehicle`` to the parser of ``fluid_sim``."""
+    """
+    Add ``new-vehicle`` to the parser of ``fluid_sim``.
+
+    Parameters
+    ----------
+    commands
+        Subparsers of ``fluid_sim``.
+    show
+        Shows table and JSON.
+
+    """
     text = 'write model, vehicle file and scene of a vehicle from its mass, size and thrusters'
     new = add_command(commands, 'new-vehicle', text, _new_vehicle, show)
     new.add_argument('name', metavar='NAME', help='letters, digits and _, a letter first')

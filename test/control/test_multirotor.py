@@ -10,7 +10,7 @@ from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGai
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation.plant import plant_of
-from test.support.closed_loop import Loop, fly
+from test.support.closed_loop import Loop, run_closed_loop
 
 PLANT, _ = plant_of('quadrotor', '')
 HOME = (0.0, 0.0, 1.5)
@@ -29,14 +29,14 @@ def test_plant_is_the_x500() -> None:
 
 
 def test_hovers_at_its_target_without_moving() -> None:
-    rows = fly(MultirotorController(PLANT), 3.0, target=lambda t: HOME)
+    rows = run_closed_loop(MultirotorController(PLANT), 3.0, target=lambda t: HOME)
     assert error(rows, HOME).max() < 1e-9
     assert rows[-1, 5:] == pytest.approx(np.full(4, PLANT.weight / 4), rel=1e-6)
 
 
 def test_step_response_settles_without_overshoot() -> None:
     target = (2.0, 1.0, 2.0)
-    rows = fly(MultirotorController(PLANT), 8.0, target=lambda t: target)
+    rows = run_closed_loop(MultirotorController(PLANT), 8.0, target=lambda t: target)
     distance = error(rows, target)
     assert distance[rows[:, 0] > 3.0].max() < 0.2
     assert distance[-1] < 0.02
@@ -45,14 +45,14 @@ def test_step_response_settles_without_overshoot() -> None:
 
 
 def test_yaw_step_turns_the_short_way_and_keeps_the_place() -> None:
-    rows = fly(MultirotorController(PLANT), 8.0, target=lambda t: HOME, yaw=-2.5)
+    rows = run_closed_loop(MultirotorController(PLANT), 8.0, target=lambda t: HOME, yaw=-2.5)
     assert rows[-1, 4] == pytest.approx(-2.5, abs=1e-3)
     assert rows[:, 4].max() < 1e-3
     assert error(rows, HOME).max() < 0.02
 
 
 def test_steady_wind_leaves_no_error() -> None:
-    rows = fly(
+    rows = run_closed_loop(
         MultirotorController(PLANT), 20.0, target=lambda t: HOME,
         wind=lambda t: (6.0, -2.0, 0.0) if t >= 1.0 else (0.0, 0.0, 0.0),
     )  # fmt: skip
@@ -63,7 +63,7 @@ def test_steady_wind_leaves_no_error() -> None:
 
 def test_without_the_integrator_the_wind_leaves_an_error() -> None:
     gains = MultirotorGains(integral=0.0)
-    rows = fly(
+    rows = run_closed_loop(
         MultirotorController(PLANT, gains), 10.0, target=lambda t: HOME,
         wind=lambda t: (6.0, 0.0, 0.0),
     )  # fmt: skip
@@ -75,7 +75,7 @@ def test_without_the_integrator_the_wind_leaves_an_error() -> None:
 
 
 def test_recovers_from_a_knife_edge_attitude() -> None:
-    rows = fly(
+    rows = run_closed_loop(
         MultirotorController(PLANT), 8.0, target=lambda t: (0.0, 0.0, 8.0),
         quat=(0.72, 0.69, 0.0, 0.1),
     )  # fmt: skip
@@ -86,7 +86,7 @@ def test_recovers_from_a_knife_edge_attitude() -> None:
 def test_thrusts_stay_within_limits_and_a_far_target_does_not_wind_up() -> None:
     far = (60.0, 0.0, 1.5)
     controller = MultirotorController(PLANT)
-    rows = fly(controller, 25.0, target=lambda t: far)
+    rows = run_closed_loop(controller, 25.0, target=lambda t: far)
     low, high = PLANT.thrust_limits.T
     assert (rows[:, 5:] >= low).all() and (rows[:, 5:] <= high).all()
     assert rows[:, 1].max() < 60.5  # 1 % overshoot at most after a long way at full speed
@@ -112,10 +112,10 @@ def test_a_repeated_state_gets_the_same_answer() -> None:
 
 def test_time_going_back_forgets_the_integral() -> None:
     fresh, used = MultirotorController(PLANT), MultirotorController(PLANT)
-    fly(used, 5.0, target=lambda t: HOME, wind=lambda t: (6.0, 0.0, 0.0))
+    run_closed_loop(used, 5.0, target=lambda t: HOME, wind=lambda t: (6.0, 0.0, 0.0))
     assert abs(used.integral_w[0]) > 0.1
-    a = fly(used, 2.0, target=lambda t: HOME)
-    b = fly(fresh, 2.0, target=lambda t: HOME)
+    a = run_closed_loop(used, 2.0, target=lambda t: HOME)
+    b = run_closed_loop(fresh, 2.0, target=lambda t: HOME)
     assert (a == b).all()
 
 

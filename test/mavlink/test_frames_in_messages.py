@@ -13,7 +13,7 @@ from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.px4.hil_state import HilState
 from fluid_sim_ros.mavlink.sticks import Sticks
 from test.support.autopilots import hil_wire
-from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.autopilot_peers import BridgedFlight
 from test.support.autopilots.json_reader import JsonReader
 
 #: Heading north, level: east, north, up of the nose and so on.
@@ -158,7 +158,7 @@ def test_px4_under_water(case):
 @pytest.mark.parametrize('case', CASES)
 def test_ardupilot(case):
     angles, rates, velocity = EXPECTED[case]
-    flight = Flight('x500', 'ardupilot')
+    flight = BridgedFlight('x500', 'ardupilot')
     flight.bridge.close()
     flight.simulation.step(2)
     source = placed('x500', case, 30.0).data

@@ -7,7 +7,7 @@ import pytest
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.mavlink import sticks as sticks_module
 from fluid_sim_ros.mavlink.sticks import Sticks
-from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.autopilot_peers import BridgedFlight
 from test.support.autopilots.px4_stand_in import Px4
 
 IDLE = [0.0] * 4
@@ -57,7 +57,7 @@ def test_what_is_no_radio_control_is_refused(axes, buttons, line):
 
 
 def test_px4_gets_them_and_loses_them():
-    with Flight('x500_ground', 'px4', sticks_timeout=0.2).running() as flight:
+    with BridgedFlight('x500_ground', 'px4', sticks_timeout=0.2).running() as flight:
         px4 = Px4(flight.port, silent=0)
 
         def received(exchanges):
@@ -78,7 +78,7 @@ def test_px4_gets_them_and_loses_them():
 
 
 def test_ardupilot_refuses_them():
-    flight = Flight('x500_ground', 'ardupilot')
+    flight = BridgedFlight('x500_ground', 'ardupilot')
     with pytest.raises(CommandError, match='ArduPilot takes its sticks from a ground station'):
         flight.bridge.set_sticks([0.0], [])
     flight.bridge.close()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.reader import open_log
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 LAYOUT = Path(__file__).resolve().parents[2] / 'config/foxglove/quadrotor.json'
 
@@ -22,7 +22,7 @@ def test_every_plotted_field_is_in_a_log(tmp_path):
     layout = json.loads(LAYOUT.read_text())
     assert sorted(panels(layout['layout'])) == sorted(layout['configById'])
     path = tmp_path / 'a.mcap'
-    fly(path, 'quadrotor', seconds=0.05, piloted=False)
+    record_flight(path, 'quadrotor', seconds=0.05, piloted=False)
     log = open_log(path)
     fields = {}
     for topic in log.topics.values():

@@ -12,14 +12,14 @@ from rosbags.typesys import Stores, get_typestore
 from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.inspect import repair
 from fluid_sim_ros.recording.reader import open_log
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 
 @pytest.fixture(scope='module')
 def flight(tmp_path_factory):
     """Return the path of a short piloted flight."""
     path = tmp_path_factory.mktemp('log') / 'a.mcap'
-    fly(path, 'quadrotor', seconds=1.0, seed=1)
+    record_flight(path, 'quadrotor', seconds=1.0, seed=1)
     return path
 
 
@@ -75,8 +75,8 @@ def test_values_equal_those_of_rosbags_also_as_a_bag(flight, tmp_path):
 
 
 def test_a_folder_is_recorded_as_a_bag(tmp_path):
-    fly(tmp_path / 'bag', 'sphere', seconds=0.2, piloted=False)
-    fly(tmp_path / 'a' / 'a_0.mcap', 'sphere', seconds=0.2, piloted=False)
+    record_flight(tmp_path / 'bag', 'sphere', seconds=0.2, piloted=False)
+    record_flight(tmp_path / 'a' / 'a_0.mcap', 'sphere', seconds=0.2, piloted=False)
     assert sorted(p.name for p in (tmp_path / 'bag').iterdir()) == ['bag_0.mcap', 'metadata.yaml']
     assert [p.name for p in (tmp_path / 'a').iterdir()] == ['a_0.mcap']
     with AnyReader([tmp_path / 'bag']) as reader:
@@ -92,7 +92,7 @@ def test_a_folder_is_recorded_as_a_bag(tmp_path):
 
 def test_the_metadata_of_a_bag_has_the_fields_that_jazzy_writes(tmp_path):
     """In their order, as `ros2 bag record -s mcap` of Jazzy writes them (metadata version 9)."""
-    fly(tmp_path / 'bag', 'sphere', seconds=0.1, piloted=False)
+    record_flight(tmp_path / 'bag', 'sphere', seconds=0.1, piloted=False)
     about = yaml.safe_load((tmp_path / 'bag/metadata.yaml').read_text())
     assert list(about) == ['rosbag2_bagfile_information']
     about = about['rosbag2_bagfile_information']

@@ -15,13 +15,13 @@ from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.pictures.report import write_report
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks, read_tracks
 from fluid_sim_ros.recording.reader import open_log
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 
 @pytest.fixture(scope='module')
 def log(tmp_path_factory):
     path = tmp_path_factory.mktemp('log') / 'a.mcap'
-    fly(path, 'quadrotor', seconds=1.0, seed=1)
+    record_flight(path, 'quadrotor', seconds=1.0, seed=1)
     return path
 
 
@@ -35,7 +35,7 @@ def plotted(log, tmp_path_factory):
 
 def test_tracks_hold_the_states_of_the_simulation(tmp_path):
     path = tmp_path / 'a.mcap'
-    state = fly(path, 'rov', seconds=0.5, seed=2).snapshot().vehicles['bluerov2_heavy']
+    state = record_flight(path, 'rov', seconds=0.5, seed=2).snapshot().vehicles['bluerov2_heavy']
     (track,) = read_tracks(open_log(path)).vehicles
     assert track.name == 'bluerov2_heavy' and len(track.times) == 51
     np.testing.assert_array_equal(track.position_w[-1], state.position_w)

@@ -18,14 +18,14 @@ from fluid_sim_ros.recording.decode import columns, fields
 from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.inspect import info, repair
 from fluid_sim_ros.recording.reader import MAGIC, open_log
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 
 @pytest.fixture(scope='module')
 def flight(tmp_path_factory):
     """Return the path of a short piloted flight."""
     path = tmp_path_factory.mktemp('log') / 'a.mcap'
-    fly(path, 'quadrotor', seconds=1.0, seed=1)
+    record_flight(path, 'quadrotor', seconds=1.0, seed=1)
     return path
 
 

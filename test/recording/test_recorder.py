@@ -23,7 +23,7 @@ from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.recorder import Recorder
 from fluid_sim_ros.recording.rosbag2 import recorded_topic
 from fluid_sim_ros.recording.sink import RecordingSink
-from test.support.recorded_flights import events_of, fly
+from test.support.recorded_flights import events_of, record_flight
 
 TOPIC = RecordedTopic('/a', 'std_msgs/msg/String')
 
@@ -41,7 +41,7 @@ def read(path):
 
 def test_the_states_are_those_of_the_simulation(tmp_path):
     path = tmp_path / 'a.mcap'
-    fly(path, 'rov', seconds=0.2, piloted=False)
+    record_flight(path, 'rov', seconds=0.2, piloted=False)
     messages, summary = read(path)
     simulation = Simulation('rov')
     states = StateTopics(simulation, DEFAULTS)
@@ -62,7 +62,7 @@ def test_the_states_are_those_of_the_simulation(tmp_path):
 
 def test_channels_carry_definition_hash_and_quality(tmp_path):
     path = tmp_path / 'a.mcap'
-    fly(path, 'sphere', seconds=0.05, piloted=False)
+    record_flight(path, 'sphere', seconds=0.05, piloted=False)
     _, summary = read(path)
     for channel in summary.channels.values():
         schema = summary.schemas[channel.schema_id]
@@ -77,7 +77,7 @@ def test_channels_carry_definition_hash_and_quality(tmp_path):
 def test_two_recordings_differ_in_wall_time_only(tmp_path):
     paths = [tmp_path / 'a.mcap', tmp_path / 'b.mcap']
     for path in paths:
-        fly(path, seconds=0.3, seed=4)
+        record_flight(path, seconds=0.3, seed=4)
     first, second = (read(path)[0] for path in paths)
     assert first == second
 
@@ -226,7 +226,7 @@ def test_a_log_without_states_is_whole(tmp_path):
 
 
 def test_a_replay_offers_the_recorded_quality_of_service(tmp_path):
-    fly(tmp_path / 'a.mcap', 'x500', seconds=0.1)
+    record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.1)
     offered = {
         t.name: recorded_topic(t.name, t.type, t.metadata)
         for t in open_log(tmp_path / 'a.mcap').topics.values()

@@ -7,13 +7,13 @@ from PIL import Image
 from fluid_sim_ros.cli.main import WRONG_INPUT, main
 from fluid_sim_ros.recording.pictures.render import FilmOptions, render
 from fluid_sim_ros.recording.reader import open_log
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 
 @pytest.fixture(scope='module')
 def log(tmp_path_factory):
     path = tmp_path_factory.mktemp('log') / 'a.mcap'
-    fly(path, 'quadrotor', seconds=0.5, seed=1)
+    record_flight(path, 'quadrotor', seconds=0.5, seed=1)
     return path
 
 
@@ -43,7 +43,7 @@ def test_force_arrows_are_drawn(tmp_path):
     pictures = []
     for name, topics in (('with', ('*',)), ('without', ('*/odom', '*/joint_states'))):
         path, out = tmp_path / f'{name}.mcap', tmp_path / f'{name}.png'
-        fly(path, 'quadrotor', seconds=0.1, seed=1, topics=topics)
+        record_flight(path, 'quadrotor', seconds=0.1, seed=1, topics=topics)
         assert render(open_log(path), out, FilmOptions(), lambda done: None) == 1
         pictures.append(np.asarray(Image.open(out), dtype=float))
     drawn, plain = pictures

@@ -12,7 +12,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
 from fluid_sim_ros.recording.sink import RecordingSink
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 
 def flown(number, folder):
@@ -22,7 +22,7 @@ def flown(number, folder):
     scene = names[number % len(names)]
     integrator = str(random.choice(['RK4', 'implicitfast', 'Euler']))
     path = folder / f'{number}.mcap'
-    fly(path, scene, seconds=0.5, seed=number, integrator=integrator)
+    record_flight(path, scene, seconds=0.5, seed=number, integrator=integrator)
     return path
 
 
@@ -46,14 +46,14 @@ def test_twenty_random_flights_are_repeated_to_the_last_bit(number, tmp_path):
 
 def test_commands_are_fed_in(tmp_path):
     path = tmp_path / 'a.mcap'
-    fly(path, 'quadrotor', seconds=1.0, seed=5)
+    record_flight(path, 'quadrotor', seconds=1.0, seed=5)
     assert check_bits(path).commands >= 100
 
 
 @pytest.mark.parametrize('scene', ['x500_turbulence', 'bluerov2_current'])
 def test_gusts_are_repeated_and_another_seed_brings_others(scene, tmp_path):
     path = tmp_path / 'a.mcap'
-    fly(path, scene, seconds=0.5, seed=5)
+    record_flight(path, scene, seconds=0.5, seed=5)
     check_bits(path)
     topic = '/medium/current' if 'current' in scene else '/medium/wind'
     for seed, same in ((5, True), (6, False)):
@@ -70,7 +70,7 @@ def test_a_scene_file_elsewhere_is_not_needed(tmp_path):
         '<body name="ball" pos="0 0 5"><freejoint/><geom size=".1"/></body>'
         '</worldbody></mujoco>'
     )
-    fly(tmp_path / 'a.mcap', str(model), seconds=0.5, seed=2)
+    record_flight(tmp_path / 'a.mcap', str(model), seconds=0.5, seed=2)
     model.unlink()
     check_bits(tmp_path / 'a.mcap')
 
@@ -113,7 +113,7 @@ def changed_copy(path, target, topic, number, offset, by):
 
 def test_the_first_difference_is_named(tmp_path, capsys):
     path, bad = tmp_path / 'a.mcap', tmp_path / 'b.mcap'
-    fly(path, 'sphere', seconds=0.3, piloted=False)
+    record_flight(path, 'sphere', seconds=0.3, piloted=False)
     # the sixth odometry's height: header 4, stamp 8, two strings, two doubles before it
     offset = 4 + 8 + 4 + len('sphere/odom') + 1 + 4 + len('sphere/base_link') + 1
     offset += -(offset - 4) % 8 + 16
@@ -131,7 +131,7 @@ def test_the_first_difference_is_named(tmp_path, capsys):
 
 def test_a_changed_command_is_a_difference(tmp_path):
     path, bad = tmp_path / 'a.mcap', tmp_path / 'b.mcap'
-    fly(path, 'quadrotor', seconds=0.3, seed=1)
+    record_flight(path, 'quadrotor', seconds=0.3, seed=1)
     changed_copy(path, bad, '/x500/cmd/thrust', 10, 20, 1e-3)
     difference = resimulate(open_log(bad)).difference
     assert difference is not None and difference.step >= 50
@@ -139,7 +139,7 @@ def test_a_changed_command_is_a_difference(tmp_path):
 
 def test_a_change_is_flown(tmp_path):
     path = tmp_path / 'a.mcap'
-    fly(path, 'sphere', seconds=0.5, piloted=False)
+    record_flight(path, 'sphere', seconds=0.5, piloted=False)
     log = open_log(path)
     for change in ('integrator=RK4', 'timestep=0.001', 'fluid=inertia', 'current=3,0,0'):
         outcome = resimulate(log, changes=parse_changes([change]), keep=('/odom',))
@@ -151,7 +151,8 @@ def test_a_change_is_flown(tmp_path):
 
 def test_a_change_is_drawn_beside_the_recording(tmp_path, capsys):
     path, picture = tmp_path / 'a.mcap', tmp_path / 'a.png'
-    fly(path, 'quadrotor', seconds=0.5, seed=3)  # with wind commands, which the change replaces
+    # with wind commands, which the change replaces
+    record_flight(path, 'quadrotor', seconds=0.5, seed=3)
     arguments = ['replay', str(path), '--with', 'wind=5,0,0', '--out', str(picture)]
     assert cli.main([*arguments, '--json', '-']) == 0
     apart = json.loads(capsys.readouterr().out)['differences']['x500']

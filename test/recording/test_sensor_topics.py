@@ -12,7 +12,7 @@ from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.sensors import SensorSuite
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 
 TOPICS = {
     'x500': ['gps/fix', 'gps/vel', 'imu/data', 'imu/mag', 'pressure', 'range'],
@@ -74,7 +74,7 @@ FRAMES = {
 
 
 def test_late_readings_appear_late_with_their_own_stamp(tmp_path):
-    simulation = fly(tmp_path / 'a.mcap', 'x500', seconds=1.0)
+    simulation = record_flight(tmp_path / 'a.mcap', 'x500', seconds=1.0)
     log = open_log(tmp_path / 'a.mcap')
     found = [
         (m.log_ns, fields(log.topic(m.topic).definition, m.data))
@@ -96,15 +96,15 @@ def test_late_readings_appear_late_with_their_own_stamp(tmp_path):
 @pytest.mark.parametrize('topics', [('*',), ('*/gps/fix',), ('*/gps/*', '/clock')])
 def test_a_flight_with_sensors_is_repeated_to_the_last_bit(tmp_path, topics):
     path = tmp_path / 'a.mcap'
-    fly(path, 'x500', seconds=1.5, seed=4, topics=topics)
+    record_flight(path, 'x500', seconds=1.5, seed=4, topics=topics)
     result = resimulate(open_log(path))
     assert result.compared > 10
     assert result.difference is None
 
 
 def test_readings_do_not_depend_on_what_else_is_recorded(tmp_path):
-    fly(tmp_path / 'a.mcap', 'x500', seconds=0.6, piloted=False)
-    fly(
+    record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.6, piloted=False)
+    record_flight(
         tmp_path / 'b.mcap', 'x500', seconds=0.6, piloted=False, topics=('*/imu/data', '*/gps/vel')
     )
     for topic in ('/x500/imu/data', '/x500/gps/vel'):
@@ -116,7 +116,7 @@ def test_readings_do_not_depend_on_what_else_is_recorded(tmp_path):
 
 
 def test_a_log_states_the_quality_of_sensors(tmp_path):
-    fly(tmp_path / 'a.mcap', 'x500', seconds=0.1, piloted=False)
+    record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.1, piloted=False)
     topics = open_log(tmp_path / 'a.mcap').topics.values()
     offered = {t.name: t.metadata['offered_qos_profiles'] for t in topics}
     assert 'reliability: best_effort' in offered['/x500/imu/data']
@@ -124,7 +124,7 @@ def test_a_log_states_the_quality_of_sensors(tmp_path):
 
 
 def test_frames_of_sensors_stand_on_the_vehicle(tmp_path):
-    fly(tmp_path / 'a.mcap', 'x500', seconds=0.1, piloted=False)
+    record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.1, piloted=False)
     log = open_log(tmp_path / 'a.mcap')
     message = next(iter(log.messages(['/tf'])))
     found = fields(log.topic('/tf').definition, message.data)

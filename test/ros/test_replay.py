@@ -8,7 +8,7 @@ from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.recording.reader import open_log
-from test.support.recorded_flights import fly
+from test.support.recorded_flights import record_flight
 from test.support.ros_processes import Peer, Process, stamp_ns, wait_until
 
 pytestmark = pytest.mark.ros
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.ros
 @pytest.fixture(scope='module')
 def log(tmp_path_factory):
     path = tmp_path_factory.mktemp('log') / 'a.mcap'
-    fly(path, 'sphere', seconds=1.0, piloted=False)
+    record_flight(path, 'sphere', seconds=1.0, piloted=False)
     return path
 
 

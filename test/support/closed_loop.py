@@ -46,7 +46,7 @@ class Loop:
         simulation.step(self.steps)
 
 
-def fly(
+def run_closed_loop(
     controller: MultirotorController,
     seconds: float,
     *,

@@ -54,7 +54,9 @@ class Pilot:
         self._commands[name].apply(data)
 
 
-def fly(path, scene='quadrotor', seconds=1.0, seed=0, piloted=True, topics=('*',), **options):
+def record_flight(
+    path, scene='quadrotor', seconds=1.0, seed=0, piloted=True, topics=('*',), **options
+):
     """Record a flight; return the simulation at its end."""
     simulation = Simulation(scene, seed=seed, **options)
     sink = RecordingSink(simulation, path, topics=topics)

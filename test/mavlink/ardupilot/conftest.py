@@ -3,12 +3,12 @@ import pytest
 from test.support.autopilots.ardupilot_stand_in import (
     Link,
 )
-from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.autopilot_peers import BridgedFlight
 
 
 @pytest.fixture
 def flight():
-    with Flight('x500_ground', 'ardupilot').running() as flight:
+    with BridgedFlight('x500_ground', 'ardupilot').running() as flight:
         yield flight
 
 

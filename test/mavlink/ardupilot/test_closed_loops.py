@@ -13,7 +13,7 @@ from test.support.autopilots.ardupilot_stand_in import (
     Submarine,
     padded,
 )
-from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.autopilot_peers import BridgedFlight
 
 IDLE = padded([1000] * 4)
 
@@ -28,7 +28,7 @@ def test_a_copter_takes_off_and_holds_its_place(flight, link):
 
 
 def test_an_aircraft_waits_on_its_wheels_and_takes_off():
-    with Flight('aerosonde_ground', 'ardupilot').running() as flight:
+    with BridgedFlight('aerosonde_ground', 'ardupilot').running() as flight:
         link, plane = Link(flight.port), Plane()
         for _ in range(400):
             state = link.exchange(padded([1500, 1500, 1000, 1500]))
@@ -46,7 +46,7 @@ def test_an_aircraft_waits_on_its_wheels_and_takes_off():
 )
 def test_a_submarine_dives_turns_and_goes_ahead(scene, factors):
     yaw = math.pi / 2 + 0.5
-    with Flight(scene, 'ardupilot').running() as flight:
+    with BridgedFlight(scene, 'ardupilot').running() as flight:
         link = Link(flight.port)
         state = link.exchange(padded([1500] * 8))
         submarine = Submarine(factors, 6.0, yaw)

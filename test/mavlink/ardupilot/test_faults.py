@@ -13,13 +13,13 @@ from test.support.autopilots.ardupilot_stand_in import (
     Link,
     padded,
 )
-from test.support.autopilots.autopilot_peers import Flight, waited
+from test.support.autopilots.autopilot_peers import BridgedFlight, waited
 
 IDLE = padded([1000] * 4)
 
 
 def test_a_silent_autopilot_is_reported_and_waited_for():
-    with Flight('x500_ground', 'ardupilot', timeout=0.2).running() as flight:
+    with BridgedFlight('x500_ground', 'ardupilot', timeout=0.2).running() as flight:
         link = Link(flight.port)
         link.exchange(IDLE)
         assert waited(lambda: flight.bridge.counters.gone == 1)
@@ -112,7 +112,7 @@ def test_a_port_in_use_is_refused():
         with pytest.raises(
             ConfigError, match=rf'127\.0\.0\.1 port {port}: Address already in use'
         ):
-            Flight('x500_ground', 'ardupilot', port=port)
+            BridgedFlight('x500_ground', 'ardupilot', port=port)
 
 
 def test_it_listens_on_this_host_only_unless_told_otherwise(flight):

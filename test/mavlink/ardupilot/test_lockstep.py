@@ -13,7 +13,7 @@ from test.support.autopilots.ardupilot_stand_in import (
     Link,
     padded,
 )
-from test.support.autopilots.autopilot_peers import Flight, waited
+from test.support.autopilots.autopilot_peers import BridgedFlight, waited
 
 IDLE = padded([1000] * 4)
 
@@ -103,7 +103,7 @@ def test_a_reset_by_the_user_sets_the_state_back_and_time_goes_on(flight, link):
 
 
 def test_a_reset_within_the_first_frame_keeps_the_frames_length():
-    flight = Flight('x500_ground', 'ardupilot')
+    flight = BridgedFlight('x500_ground', 'ardupilot')
     simulation, bridge, link = flight.simulation, flight.bridge, Link(flight.port, rate=400)
     link.socket.send(link.packet(IDLE))
     assert bridge.meet(simulation)
@@ -120,7 +120,7 @@ def test_a_reset_within_the_first_frame_keeps_the_frames_length():
 
 
 def test_two_instances_fly_side_by_side():
-    flights = [Flight('x500_ground', 'ardupilot') for _ in range(2)]
+    flights = [BridgedFlight('x500_ground', 'ardupilot') for _ in range(2)]
     with flights[0].running(), flights[1].running():
         links = [Link(flight.port) for flight in flights]
         for _ in range(100):
@@ -133,11 +133,13 @@ def test_two_instances_fly_side_by_side():
 
 def test_the_instance_chooses_the_port():
     with pytest.raises(ConfigError, match=r'port 65542: '):
-        Flight('x500_ground', 'ardupilot', port=0, instance=5654)
+        BridgedFlight('x500_ground', 'ardupilot', port=0, instance=5654)
 
 
 def test_real_time_holds_the_autopilot_back():
-    with Flight('x500_ground', 'ardupilot', RealTime(factor=2.0, tick=5)).running() as flight:
+    with BridgedFlight(
+        'x500_ground', 'ardupilot', RealTime(factor=2.0, tick=5)
+    ).running() as flight:
         link = Link(flight.port)
         link.exchange(IDLE)
         begin = time.perf_counter()

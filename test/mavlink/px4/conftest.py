@@ -1,7 +1,7 @@
 import pytest
 
 from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
-from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.autopilot_peers import BridgedFlight
 from test.support.autopilots.px4_stand_in import Px4
 
 
@@ -13,7 +13,7 @@ def patient(monkeypatch):
 
 @pytest.fixture
 def flight():
-    with Flight('x500_ground', 'px4').running() as flight:
+    with BridgedFlight('x500_ground', 'px4').running() as flight:
         yield flight
 
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
-from test.support.autopilots.autopilot_peers import Flight
+from test.support.autopilots.autopilot_peers import BridgedFlight
 from test.support.autopilots.px4_pilots import Plane, Quad, Submarine
 from test.support.autopilots.px4_stand_in import Px4
 
@@ -25,7 +25,7 @@ def test_a_quadrotor_takes_off_and_holds_its_place(flight, monkeypatch):
 
 def test_an_aircraft_waits_on_its_wheels_and_takes_off(monkeypatch):
     monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.004)
-    with Flight('aerosonde_ground', 'px4').running() as flight:
+    with BridgedFlight('aerosonde_ground', 'px4').running() as flight:
         px4, plane = Px4(flight.port, silent=15), Plane()
         for _ in range(250):
             px4.exchange([0.0] * 16, armed=False)
@@ -43,7 +43,7 @@ def test_an_aircraft_waits_on_its_wheels_and_takes_off(monkeypatch):
 
 def test_a_submarine_dives_turns_and_goes_ahead(monkeypatch):
     monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.004)
-    with Flight('bluerov2_heavy', 'px4').running() as flight:
+    with BridgedFlight('bluerov2_heavy', 'px4').running() as flight:
         px4 = Px4(flight.port, silent=30)
         submarine = Submarine(6.0, math.pi / 2 + 0.5)
         controls = [0.0] * 8

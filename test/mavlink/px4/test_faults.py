@@ -7,7 +7,7 @@ import pytest
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
 from fluid_sim_ros.mavlink.px4.hil_messages import dialect
-from test.support.autopilots.autopilot_peers import Flight, waited
+from test.support.autopilots.autopilot_peers import BridgedFlight, waited
 
 IDLE = [0.0] * 4
 
@@ -73,17 +73,17 @@ def test_outputs_that_are_no_numbers_are_rest(flight, px4):
 
 def test_a_port_in_use_is_refused(flight):
     with pytest.raises(ConfigError, match=rf'port {flight.port}: Address already in use; end the'):
-        Flight('x500_ground', 'px4', port=flight.port)
+        BridgedFlight('x500_ground', 'px4', port=flight.port)
 
 
 def test_an_address_of_another_host_is_refused():
     with pytest.raises(ConfigError, match=r'cannot listen on 192\.0\.2\.1'):
-        Flight('x500_ground', 'px4', address='192.0.2.1')
+        BridgedFlight('x500_ground', 'px4', address='192.0.2.1')
 
 
 def test_a_timestep_that_does_not_divide_4_ms_is_refused():
     with pytest.raises(ConfigError, match=r'timestep of 0\.005 s does not divide 4 ms'):
-        Flight('aerosonde', 'px4')
+        BridgedFlight('aerosonde', 'px4')
 
 
 def test_a_missing_extra_is_named(monkeypatch):
@@ -93,8 +93,8 @@ def test_a_missing_extra_is_named(monkeypatch):
     monkeypatch.delitem(sys.modules, 'fluid_sim_ros.mavlink.px4.hil_state')
     monkeypatch.setitem(sys.modules, 'pymavlink.dialects.v20', None)
     with pytest.raises(MissingExtraError, match='an autopilot needs pymavlink'):
-        Flight('x500_ground', 'px4')
-    Flight('x500_ground', 'ardupilot').bridge.close()  # which needs nothing
+        BridgedFlight('x500_ground', 'px4')
+    BridgedFlight('x500_ground', 'ardupilot').bridge.close()  # which needs nothing
 
 
 def test_a_vehicle_without_the_sensors_is_refused(tmp_path):
@@ -102,4 +102,4 @@ def test_a_vehicle_without_the_sensors_is_refused(tmp_path):
     lines = [f'{{output: {i}, thruster: t{i}, input: [-1, 0, 1]}}' for i in range(1, 7)]
     path.write_text(f'protocol: px4\nairframe: none\nactuators: [{", ".join(lines)}]\n')
     with pytest.raises(ConfigError, match="vehicle 'bluerov2' has no barometer; add one under"):
-        Flight('bluerov2', 'px4', mapping=str(path))
+        BridgedFlight('bluerov2', 'px4', mapping=str(path))

@@ -6,7 +6,7 @@ import pytest
 
 from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
 from fluid_sim_ros.resources import config_folder
-from test.support.autopilots.autopilot_peers import Flight, waited
+from test.support.autopilots.autopilot_peers import BridgedFlight, waited
 from test.support.autopilots.px4_stand_in import Px4
 
 IDLE = [0.0] * 4
@@ -46,7 +46,7 @@ def test_sticks_of_a_mapping_are_sent(tmp_path):
     path = tmp_path / 'px4_x500.yaml'
     shipped = config_folder() / 'autopilots' / 'px4_x500.yaml'
     path.write_text(shipped.read_text() + 'rc: [1500, 1500, 1000, 1500, 1900]\n')
-    with Flight('x500_ground', 'px4', mapping=str(path)).running() as flight:
+    with BridgedFlight('x500_ground', 'px4', mapping=str(path)).running() as flight:
         px4 = Px4(flight.port, silent=0)
         for _ in range(50):
             px4.exchange(IDLE)
@@ -95,7 +95,7 @@ def test_an_answer_that_comes_late_locks_the_loop(flight, monkeypatch):
 
 
 def test_two_instances_fly_side_by_side():
-    flights = [Flight('x500_ground', 'px4') for _ in range(2)]
+    flights = [BridgedFlight('x500_ground', 'px4') for _ in range(2)]
     with flights[0].running(), flights[1].running():
         autopilots = [Px4(flight.port, silent=0) for flight in flights]
         for _ in range(100):
@@ -118,14 +118,14 @@ def test_a_reset_by_the_user_sets_the_state_back_and_time_goes_on(flight, px4):
 def test_the_same_seed_gives_the_same_bytes():
     streams = []
     for _ in range(2):
-        with Flight('x500_ground', 'px4').running() as flight:
+        with BridgedFlight('x500_ground', 'px4').running() as flight:
             px4 = Px4(flight.port, silent=0)
             streams.append([px4.exchange([0.8] * 4) for _ in range(60)])
     assert streams[0] == streams[1]
 
 
 def test_an_aircraft_gets_its_airspeed():
-    with Flight('aerosonde', 'px4', timestep=0.004).running() as flight:
+    with BridgedFlight('aerosonde', 'px4', timestep=0.004).running() as flight:
         px4, pressures = Px4(flight.port, silent=0), []
         for _ in range(50):
             sensors = px4.exchange([0.0] * 4 + [0.5])

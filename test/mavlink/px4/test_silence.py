@@ -8,7 +8,7 @@ import pytest
 
 from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
 from test.support.autopilots import hil_wire
-from test.support.autopilots.autopilot_peers import Flight, waited
+from test.support.autopilots.autopilot_peers import BridgedFlight, waited
 from test.support.autopilots.px4_stand_in import Px4
 
 IDLE = [0.0] * 4
@@ -16,7 +16,7 @@ IDLE = [0.0] * 4
 
 def test_a_stall_is_reported_and_survived(monkeypatch):
     monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.02)
-    with Flight('x500_ground', 'px4', timeout=0.2).running() as flight:
+    with BridgedFlight('x500_ground', 'px4', timeout=0.2).running() as flight:
         px4 = Px4(flight.port, silent=0)
         px4.exchange(IDLE)
         assert waited(lambda: flight.bridge.counters.gone == 1)
@@ -29,7 +29,7 @@ def test_a_stall_is_reported_and_survived(monkeypatch):
 
 def test_a_px4_that_is_halted_stops_time_and_goes_on(monkeypatch):
     monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.0)
-    with Flight('x500_ground', 'px4', timeout=0.2).running() as flight:
+    with BridgedFlight('x500_ground', 'px4', timeout=0.2).running() as flight:
         px4 = Px4(flight.port, silent=0)
 
         def time_stands_still():  # the kernel's buffers grow while they fill

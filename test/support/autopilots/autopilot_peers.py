@@ -34,7 +34,7 @@ def waited(condition, seconds=10.0):
     return condition()
 
 
-class Flight:
+class BridgedFlight:
     """A simulation with a bridge, run in a thread of its own; ``reports`` are (key, line)."""
 
     def __init__(
@@ -71,7 +71,7 @@ class Flight:
             self.error = error
 
     @contextlib.contextmanager
-    def running(self, until: int = NEVER) -> Iterator['Flight']:
+    def running(self, until: int = NEVER) -> Iterator['BridgedFlight']:
         """Run until the block is left."""
         thread = threading.Thread(target=self._run, args=(until,), daemon=True)
         thread.start()
