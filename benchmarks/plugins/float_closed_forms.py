@@ -124,7 +124,7 @@ HEAVE_ADDED, ROLL_ADDED = 9.0, 0.4  # [kg], [kg m^2], stated
 
 def float_model(inside: str, added: float) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return a float in still water, with the stated added mass times ``added``."""
-    values: dict[str, Any] = {'volume': 'auto'}
+    values: dict[str, Any] = {'volume': 'auto', 'drag': 'none'}
     if added:
         center = inside.split('pos="')[1].split('"')[0]
         diagonal = added * np.array([5, 6, HEAVE_ADDED, ROLL_ADDED, 0.3, 0.2])

@@ -81,7 +81,7 @@ def full_case(seed: int) -> Case:
     inside = (
         f'<inertial pos="{text(center)}" mass="{text(mass)}" diaginertia="{text(inertia)}"/>'
         '<geom size=".1" contype="0" conaffinity="0"/>'
-        + body_plugin(added_mass=added, reference_point=point)
+        + body_plugin(added_mass=added, reference_point=point, drag='none')
     )
     matrix = rigid_body_matrix(mass, np.diag(inertia), center - point) + added
     return Case(inside, matrix, point, np.r_[unit(rng), 2 * unit(rng)])

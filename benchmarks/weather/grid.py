@@ -41,7 +41,7 @@ def sampled(spacing: float) -> Grid:
 
 def model_in(grid: Grid | None, **options: Any) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return a neutral sphere in the current of a grid."""
-    plugin = body_plugin(volume='auto', added_mass='auto')
+    plugin = body_plugin(volume='auto', added_mass='auto', drag='none')
     medium: dict[str, Any] = {'density': 1000}
     extra = ''
     if grid is not None:

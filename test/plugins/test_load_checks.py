@@ -53,17 +53,21 @@ BAD_BODIES = {
     ),
     'negative volume': (hull(volume=-3), ['volume', "'-3'", 'auto or a number > 0 [m^3]']),
     'zero volume': (hull(volume=0), ['volume', "'0'", '> 0']),
-    'unknown word': (hull(drag='elipsoid'), ['drag', 'elipsoid', 'builtin, ellipsoid, none']),
+    'unknown word': (
+        hull(drag='elipsoid'), ['drag', 'elipsoid', 'builtin, ellipsoid, inertia_box, none']
+    ),
     'unknown area': (
         hull(drag='ellipsoid', drag_area='real'), ['drag_area', 'real', 'lemma, true']
     ),
     'unknown geom': (hull(volume='auto', geoms='keel'), ['geoms', 'keel', 'this body']),
-    'option without drag': (hull(added_mass='auto', drag_area='true'), ['drag_area', 'needs']),
+    'option without drag': (
+        hull(added_mass='auto', drag='none', drag_area='true'), ['drag_area', 'needs']
+    ),
     'centre without volume': (
         hull(added_mass='auto', center_of_buoyancy=[0, 0, 1]), ['center_of_buoyancy', 'volume']
     ),
     'point without use': (hull(volume=1, reference_point=[0, 0, 1]), ['reference_point', 'needs']),
-    'nothing on': (hull(), ['nothing is switched on', 'added_mass', 'volume']),
+    'nothing on': (hull(drag='none'), ['nothing is switched on', 'added_mass', 'volume']),
     'simple body': (simple(added_mass='auto'), ['diagonal', 'simple="false"', "body 'hull'"]),
     'gravcomp and buoyancy': (
         hull(volume='auto').replace('simple', 'gravcomp="1" simple'),
@@ -150,6 +154,7 @@ def test_unknown_key_is_refused_with_the_known_ones(key):
 
 STOCK = {
     'drag ellipsoid': (hull(drag='ellipsoid'), ['drag', 'builtin', 'density="0"']),
+    'drag inertia box': (hull(drag='inertia_box'), ['drag', 'builtin', 'density="0"']),
     'drag none': (hull(added_mass='auto', drag='none'), ['drag', 'builtin']),
     'damping': (hull(linear_damping=[1] * 6), ['damping', "MuJoCo's own drag", 'density="0"']),
 }

@@ -50,6 +50,10 @@ void AddBody(const BodyFluid& body, const FluidConstants& fluid, bool acts[kTerm
   acts[kBuoyancy] |= body.buoyant && dense;
   acts[kDamping] |= AnyNonZero(body.damping.linear, 36) || AnyNonZero(body.damping.quadratic, 36) ||
                     !body.damping.cross.empty();
+  if (body.drag == Drag::kInertiaBox) {
+    acts[kDrag] |= dense;
+    acts[kViscous] |= fluid.viscosity > 0;
+  }
   if (body.drag != Drag::kEllipsoid) return;
   acts[kDrag] |= dense && AnyNonZero(body.spin_damping, 3);
   for (const DragEllipsoid& part : body.ellipsoids) {

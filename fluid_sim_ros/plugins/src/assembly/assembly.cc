@@ -41,27 +41,33 @@ bool CheckInstancesUsed(const mjModel* m) {
   return true;
 }
 
+bool HasFoil(const Assembly& assembly, int body) {
+  for (const Foil& foil : assembly.foils) {
+    if (foil.body == body) return true;
+  }
+  return false;
+}
+
 std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
   auto assembly = std::make_unique<Assembly>();
   assembly->owner = owner;
   if (!ReadMedium(m, &assembly->medium) || !CheckInstancesUsed(m)) return nullptr;
+  if (!ReadFoils(m, assembly->medium, &assembly->foils)) return nullptr;
   for (int body = 1; body < m->nbody; ++body) {
-    const int instance = m->body_plugin[body];
-    if (instance < 0 || !IsPlugin(m, instance, kBodyPlugin)) continue;
+    int instance = m->body_plugin[body];
+    if (instance >= 0 && !IsPlugin(m, instance, kBodyPlugin)) instance = -1;
+    const bool has_foil = HasFoil(*assembly, body);
+    if (instance < 0 && (has_foil || !AsksForDrag(m, body, assembly->medium))) continue;
     BodyFluid fluid;
-    if (!ReadBody(m, instance, body, assembly->medium, &fluid)) return nullptr;
+    if (!ReadBody(m, instance, body, assembly->medium, has_foil, &fluid)) return nullptr;
     assembly->bodies.push_back(std::move(fluid));
   }
-  if (!ReadFoils(m, assembly->medium, &assembly->foils) ||
-      !CheckOptions(m, owner, assembly->bodies)) {
-    return nullptr;
-  }
-  return assembly;
+  return CheckOptions(m, owner, assembly->bodies) ? std::move(assembly) : nullptr;
 }
 
 // Changes the inertia matrix at this call.
 bool AddsInertia(const BodyFluid& body, bool secant) {
-  const bool braked = body.damping.any || body.drag == Drag::kEllipsoid;
+  const bool braked = body.damping.any || (body.plugin_drag() && body.implicit);
   return body.added_mass || (secant && braked);
 }
 
@@ -107,10 +113,10 @@ void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
     if (IsAsleep(m, d, body.id)) continue;
     const Motion motion = BodyMotion(m, d, body);
     BodyForces forces;
-    EvaluateBody(m, d, assembly.medium, body, motion, secant, &forces);
+    EvaluateBody(m, d, assembly.medium, body, motion, secant && body.implicit, &forces);
     ApplyForces(m, d, body, motion, forces);
     if (!AddsInertia(body, secant)) continue;
-    if (secant) mju_addToScl(forces.inertia, forces.secant, m->opt.timestep, 36);
+    if (secant && body.implicit) mju_addToScl(forces.inertia, forces.secant, m->opt.timestep, 36);
     if (body.free_dof >= 0) {
       WriteFreeInertia(m, d, body, motion, forces.inertia);
     } else {

@@ -15,7 +15,9 @@
 
 namespace fluid_sim {
 
-enum class Drag { kBuiltin, kEllipsoid, kNone };
+// Who brakes a body: MuJoCo itself, the plugin by the body's ellipsoid geoms or by its inertia box,
+// or nobody. In the order of the words of `drag`.
+enum class Drag { kBuiltin, kEllipsoid, kInertiaBox, kNone };
 
 // One geom of the body with fluidshape="ellipsoid".
 struct DragEllipsoid {
@@ -39,6 +41,10 @@ struct BodyFluid {
   Damping damping;
 
   Drag drag = Drag::kBuiltin;
+  // The drag may enter the inertia matrix (the secant of the first-order integrators). Not where
+  // MuJoCo stores the diagonal only and the drag is there by default: it is explicit then, as
+  // MuJoCo's own is.
+  bool implicit = true;
   DragOptions options;
   mjtNum spin_damping[3] = {0, 0, 0};  // linear rotational damping per unit density [m^5/s]
   std::vector<DragEllipsoid> ellipsoids;
@@ -50,10 +56,18 @@ struct BodyFluid {
   mjtNum solid_moment[3] = {0, 0, 0};  // their volume times centre [m^4]
   mjtNum solid_radius = 0;             // of a ball about their centre that holds them [m]
   std::vector<Solid> solids;           // used where a surface may cut the body
+
+  bool plugin_drag() const { return drag == Drag::kEllipsoid || drag == Drag::kInertiaBox; }
 };
 
 // Read and check the attributes of `instance` for `body`; false after one line of explanation.
-bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, BodyFluid* out);
+// Instance -1 stands for one without any key. `has_foil`: a fluid_sim.foil acts on the body.
+bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bool has_foil,
+              BodyFluid* out);
+
+// The body's geoms ask for a drag (fluidshape="ellipsoid") that nothing but the medium can give: it
+// is to have one, with or without a plugin of its own.
+bool AsksForDrag(const mjModel* m, int body, const Medium& medium);
 
 extern const char* const kBodyAttributes[];
 extern const int kBodyAttributeCount;

@@ -24,16 +24,20 @@ int LastDof(const mjModel* m, int body) {
   return body > 0 ? m->body_dofadr[body] + m->body_dofnum[body] - 1 : -1;
 }
 
-bool CheckInertiaStorage(const mjModel* m, const Config& config, const BodyFluid& body) {
-  if (!body.added_mass && !body.damping.any && body.drag != Drag::kEllipsoid) return true;
-  for (int dof = LastDof(m, body.id); dof >= 0; dof = m->dof_parentid[dof]) {
-    const int moving = m->dof_bodyid[dof];
-    if (m->body_simple[moving]) {
-      return config.Fail("MuJoCo keeps only the diagonal of this body's inertia; set simple=" +
-                         std::string("\"false\" on ") + BodyTitle(m, moving));
-    }
+// A body that moves `body` and whose inertia MuJoCo stores as a diagonal, or -1.
+int SimpleBody(const mjModel* m, int body) {
+  for (int dof = LastDof(m, body); dof >= 0; dof = m->dof_parentid[dof]) {
+    if (m->body_simple[m->dof_bodyid[dof]]) return m->dof_bodyid[dof];
   }
-  return true;
+  return -1;
+}
+
+bool CheckInertiaStorage(const mjModel* m, const Config& config, const BodyFluid& body) {
+  const bool drags = body.plugin_drag() && body.implicit;
+  const int simple = SimpleBody(m, body.id);
+  if (simple < 0 || (!body.added_mass && !body.damping.any && !drags)) return true;
+  return config.Fail("MuJoCo keeps only the diagonal of this body's inertia; set simple=" +
+                     std::string("\"false\" on ") + BodyTitle(m, simple));
 }
 
 bool CheckDoubleCounting(const mjModel* m, const Config& config, const BodyFluid& body) {
@@ -44,7 +48,7 @@ bool CheckDoubleCounting(const mjModel* m, const Config& config, const BodyFluid
   if (!StockActs(m, body.id)) return true;
   const std::string cure =
       "; set opt density=\"0\" viscosity=\"0\" and give the fluid by fluid_sim.medium";
-  if (body.drag == Drag::kEllipsoid || (body.drag == Drag::kNone && config.Has("drag"))) {
+  if (config.Has("drag") && body.drag != Drag::kBuiltin) {
     return config.Refuse("drag",
                          "builtin while opt.density or opt.viscosity > 0, for MuJoCo's "
                          "own drag acts on this body too" +
@@ -61,7 +65,7 @@ bool CheckDoubleCounting(const mjModel* m, const Config& config, const BodyFluid
 
 bool CheckDensity(const mjModel* m, const Config& config, const Medium& medium,
                   const BodyFluid& body) {
-  const bool needed = body.per_density || body.buoyant || body.drag == Drag::kEllipsoid;
+  const bool needed = body.per_density || body.buoyant || body.plugin_drag();
   const mjtNum above = medium.has_surface ? medium.density[1] : 0;
   if (!needed || LowerDensity(medium, m) > 0 || above > 0) return true;
   // a drag with viscosity only is fine
@@ -69,6 +73,17 @@ bool CheckDensity(const mjModel* m, const Config& config, const Medium& medium,
   return config.Fail(
       "the fluid has no density; give it by fluid_sim.medium (or opt.density "
       "where MuJoCo's own drag is wanted)");
+}
+
+// MuJoCo's own drag, asked for beside a fluid that it does not know of, would be no drag at all.
+bool CheckBuiltin(const mjModel* m, const Config& config, const Medium& medium,
+                  const BodyFluid& body) {
+  if (body.drag != Drag::kBuiltin || !config.Has("drag")) return true;
+  const FluidConstants fluid = StrongestFluid(medium, m);
+  if (StockActs(m, body.id) || (fluid.density <= 0 && fluid.viscosity <= 0)) return true;
+  return config.Refuse("drag",
+                       "ellipsoid, inertia_box or none, for MuJoCo's own drag does not know of "
+                       "fluid_sim.medium; or opt.density > 0");
 }
 
 bool CheckShare(const Config& config, const Medium& medium, const BodyFluid& body) {
@@ -79,6 +94,10 @@ bool CheckShare(const Config& config, const Medium& medium, const BodyFluid& bod
 }
 
 }  // namespace
+
+bool CanMove(const mjModel* m, int body) { return LastDof(m, body) >= 0; }
+
+bool MovesSimply(const mjModel* m, int body) { return SimpleBody(m, body) >= 0; }
 
 int FreeTreeDof(const mjModel* m, int body) {
   const int joint = m->body_jntadr[body];
@@ -116,14 +135,18 @@ bool CheckDiagonal(const Config& config, const char* key, const mjtNum matrix[36
 
 bool CheckBody(const mjModel* m, const Config& config, const Medium& medium,
                const BodyFluid& body) {
-  if (LastDof(m, body.id) < 0) return config.Fail("this body cannot move; remove the plugin");
-  if (!body.added_mass && !body.damping.any && !body.buoyant && body.drag != Drag::kEllipsoid) {
+  if (!CanMove(m, body.id)) return config.Fail("this body cannot move; remove the plugin");
+  if (!body.added_mass && !body.damping.any && !body.buoyant && !body.plugin_drag()) {
     return config.Fail(
         "nothing is switched on; give added_mass, volume, linear_damping, "
-        "quadratic_damping, cross_damping or drag=\"ellipsoid\"");
+        "quadratic_damping, cross_damping or drag (ellipsoid, inertia_box)");
+  }
+  if (body.drag == Drag::kInertiaBox && m->body_mass[body.id] < mjMINVAL) {
+    return config.Refuse("drag", "inertia_box needs a body with mass");
   }
   return CheckInertiaStorage(m, config, body) && CheckDoubleCounting(m, config, body) &&
-         CheckDensity(m, config, medium, body) && CheckShare(config, medium, body);
+         CheckDensity(m, config, medium, body) && CheckBuiltin(m, config, medium, body) &&
+         CheckShare(config, medium, body);
 }
 
 bool CheckOptions(const mjModel* m, int instance, const std::vector<BodyFluid>& bodies) {

@@ -10,6 +10,12 @@
 
 namespace fluid_sim {
 
+// Some joint moves the body.
+bool CanMove(const mjModel* m, int body);
+
+// Of a body on the chain that moves `body`, MuJoCo stores only the diagonal of the inertia.
+bool MovesSimply(const mjModel* m, int body);
+
 // First dof of a body that is a whole kinematic tree with one free joint, or -1.
 int FreeTreeDof(const mjModel* m, int body);
 

@@ -3,6 +3,7 @@
 #include "body/damping.h"
 #include "body/ellipsoid.h"
 #include "body/immersion.h"
+#include "body/inertia_box.h"
 #include "shared/spatial.h"
 
 namespace fluid_sim {
@@ -81,12 +82,12 @@ void AddBuoyancy(const mjModel* m, const BodyFluid& body, const Flow& flow,
   AddCross(out->term[kBuoyancy] + 3, moment, force);
 }
 
-// Wrench at an ellipsoid, in its axes, to the body's about O.
-void AddAtEllipsoid(const DragEllipsoid& part, const mjtNum arm[3], const Wrench& local,
-                    mjtNum scale, mjtNum target[6]) {
+// Wrench at a part of the body, in the part's axes, to the body's about O; `arm` leads from O.
+void AddAtPart(const mjtNum rotation[9], const mjtNum arm[3], const Wrench& local, mjtNum scale,
+               mjtNum target[6]) {
   mjtNum force[3], torque[3];
-  Rotate(force, part.rotation, local.force);
-  Rotate(torque, part.rotation, local.torque);
+  Rotate(force, rotation, local.force);
+  Rotate(torque, rotation, local.torque);
   AddCross(torque, arm, force);
   mju_addToScl3(target, force, scale);
   mju_addToScl3(target + 3, torque, scale);
@@ -104,18 +105,46 @@ void AddEllipsoidForces(const BodyFluid& body, const DragEllipsoid& part, const 
   RotateBack(w, part.rotation, nu + 3);
   const Resistance k = EllipsoidResistance(part.shape, body.options, fluid, w, v);
   const EllipsoidCoefficients& c = part.shape.coefficients;
-  AddAtEllipsoid(part, arm, k.Drag(w, v), scale, out->term[kDrag]);
-  AddAtEllipsoid(part, arm, k.Viscous(w, v), scale, out->term[kViscous]);
+  AddAtPart(part.rotation, arm, k.Drag(w, v), scale, out->term[kDrag]);
+  AddAtPart(part.rotation, arm, k.Viscous(w, v), scale, out->term[kViscous]);
   if (c.magnus != 0) {
-    AddAtEllipsoid(part, arm, EllipsoidMagnus(part.shape, fluid, w, v), scale, out->term[kMagnus]);
+    AddAtPart(part.rotation, arm, EllipsoidMagnus(part.shape, fluid, w, v), scale,
+              out->term[kMagnus]);
   }
   if (c.kutta != 0) {
-    AddAtEllipsoid(part, arm, EllipsoidKutta(part.shape, fluid, v), scale, out->term[kKutta]);
+    AddAtPart(part.rotation, arm, EllipsoidKutta(part.shape, fluid, v), scale, out->term[kKutta]);
   }
   if (secant) {
     AddIsotropic6(out->secant, scale * (k.linear + k.viscous_linear),
                   scale * (k.angular + k.viscous_angular), arm);
   }
+}
+
+// At the centre of mass, in the axes of the inertia.
+void AddInertiaBoxForces(const mjModel* m, const BodyFluid& body, const Flow& flow,
+                         const mjtNum nu[6], bool secant, BodyForces* out) {
+  const FluidConstants fluid{flow.density, flow.viscosity};
+  mjtNum edges[3], rotation[9], arm[3], velocity[3], v[3], w[3];
+  EquivalentInertiaBox(m, body.id, edges);
+  mju_quat2Mat(rotation, m->body_iquat + 4 * body.id);
+  mju_sub3(arm, m->body_ipos + 3 * body.id, body.point);
+  mju_copy3(velocity, nu);
+  AddCross(velocity, nu + 3, arm);
+  RotateBack(v, rotation, velocity);
+  RotateBack(w, rotation, nu + 3);
+  const BoxResistance k = InertiaBoxResistance(edges, fluid, w, v);
+  AddAtPart(rotation, arm, k.Drag(w, v), flow.weight, out->term[kDrag]);
+  AddAtPart(rotation, arm, k.Viscous(w, v), flow.weight, out->term[kViscous]);
+  if (!secant) return;
+  mjtNum diagonal[36] = {0}, turned[36], shifted[36];
+  const mjtNum back[3] = {-arm[0], -arm[1], -arm[2]};
+  for (int i = 0; i < 3; ++i) {
+    diagonal[7 * i] = k.linear[i] + k.viscous_linear;
+    diagonal[7 * (3 + i)] = k.angular[i] + k.viscous_angular;
+  }
+  RotateMatrix6(turned, diagonal, rotation);
+  ShiftMatrix6(shifted, turned, back);
+  AddScaled36(out->secant, shifted, flow.weight);
 }
 
 void AddSpinDamping(const BodyFluid& body, const Flow& flow, const mjtNum nu[6], bool secant,
@@ -210,6 +239,7 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
     RotateBack(spin_b, motion.rotation, flow.spin);
     mju_subFrom3(nu + 3, spin_b);
     if (body.damping.any) AddVehicleDamping(m, medium, body, flow, nu, secant, out);
+    if (body.drag == Drag::kInertiaBox) AddInertiaBoxForces(m, body, flow, nu, secant, out);
     if (body.drag != Drag::kEllipsoid) continue;
     for (const DragEllipsoid& part : body.ellipsoids) {
       AddEllipsoidForces(body, part, flow, nu, secant, out);

@@ -1,27 +1,19 @@
 // Reads the attributes of fluid_sim.body (units, signs and defaults: doc/plugins.md).
 
+#include "body/body_read.h"
+
 #include <cmath>
 #include <cstdio>
 
-#include "body/body.h"
 #include "body/body_checks.h"
 #include "body/kappa.h"
+#include "body/stock_terms.h"
 #include "shared/numbers.h"
 #include "shared/spatial.h"
 #include "shared/terms.h"
 
 namespace fluid_sim {
 namespace {
-
-bool IsFluidGeom(const mjModel* m, int geom) { return m->geom_fluid[mjNFLUID * geom] > 0; }
-
-std::vector<int> FluidGeoms(const mjModel* m, int body) {
-  std::vector<int> geoms;
-  for (int i = 0; i < m->body_geomnum[body]; ++i) {
-    if (IsFluidGeom(m, m->body_geomadr[body] + i)) geoms.push_back(m->body_geomadr[body] + i);
-  }
-  return geoms;
-}
 
 // A 6x6 matrix from its diagonal (6), its upper triangle row by row (21) or all of it (36).
 bool ReadMatrix6(const Config& config, const char* key, std::initializer_list<int> counts,
@@ -150,115 +142,6 @@ bool ReadDamping(const Config& config, Damping* damping) {
   return true;
 }
 
-bool ReadSpinDamping(const Config& config, BodyFluid* out) {
-  std::vector<mjtNum> spin;
-  const char* allowed = "1 or 3 numbers >= 0 [m^5/s], times the density";
-  if (!config.Numbers("rotational_damping", {1, 3}, allowed, &spin)) return false;
-  for (size_t i = 0; i < 3 && !spin.empty(); ++i) {
-    out->spin_damping[i] = spin[spin.size() == 1 ? 0 : i];
-    if (out->spin_damping[i] < 0) return config.Refuse("rotational_damping", allowed);
-  }
-  return true;
-}
-
-bool ReadDrag(const mjModel* m, const Config& config, BodyFluid* out) {
-  const int drag = config.Word("drag", {"builtin", "ellipsoid", "none"});
-  const int area = config.Word("drag_area", {"lemma", "true"});
-  const int reynolds = config.Word("drag_reynolds", {"constant", "brown_lawler"});
-  if (drag < 0 || area < 0 || reynolds < 0 || !ReadSpinDamping(config, out)) return false;
-  out->drag = static_cast<Drag>(drag);
-  out->options = {area == 1, reynolds == 1};
-  if (out->drag != Drag::kEllipsoid) {
-    for (const char* key : {"drag_area", "drag_reynolds", "rotational_damping"}) {
-      if (config.Has(key)) return config.Fail(std::string(key) + " needs drag=\"ellipsoid\"");
-    }
-    return true;
-  }
-  for (int geom : FluidGeoms(m, out->id)) {
-    DragEllipsoid part;
-    mju_copy3(part.position, m->geom_pos + 3 * geom);
-    mju_quat2Mat(part.rotation, m->geom_quat + 4 * geom);
-    part.shape = GeomEllipsoid(m, geom);
-    part.scale = m->geom_fluid[mjNFLUID * geom];
-    out->ellipsoids.push_back(part);
-  }
-  if (!out->ellipsoids.empty()) return true;
-  return config.Refuse("drag", "ellipsoid needs a geom with fluidshape=\"ellipsoid\"");
-}
-
-// Geoms that displace fluid: those named, else those with fluidshape, else those that collide.
-bool DisplacingGeoms(const mjModel* m, const Config& config, int body, std::vector<int>* geoms) {
-  for (const std::string& name : Split(config.Text("geoms"))) {
-    const int geom = mj_name2id(m, mjOBJ_GEOM, name.c_str());
-    if (geom < 0 || m->geom_bodyid[geom] != body) {
-      return config.Refuse("geoms", "names of geoms of this body ('" + name + "' is none)");
-    }
-    geoms->push_back(geom);
-  }
-  if (geoms->empty()) *geoms = FluidGeoms(m, body);
-  for (int i = 0; i < m->body_geomnum[body] && !config.Has("geoms"); ++i) {
-    const int geom = m->body_geomadr[body] + i;
-    const bool collides = m->geom_contype[geom] || m->geom_conaffinity[geom];
-    if (collides && FluidGeoms(m, body).empty()) geoms->push_back(geom);
-  }
-  return true;
-}
-
-bool ReadSolids(const mjModel* m, const Config& config, BodyFluid* out) {
-  std::vector<int> geoms;
-  if (!DisplacingGeoms(m, config, out->id, &geoms)) return false;
-  const bool needed = config.Has("geoms") || config.Text("volume") == "auto";
-  for (int geom : geoms) {
-    Solid solid;
-    std::string reason;
-    if (GeomSolid(m, geom, &solid, &reason)) {
-      out->solids.push_back(solid);
-    } else if (needed) {
-      const char* name = mj_id2name(m, mjOBJ_GEOM, geom);
-      return config.Fail("geom '" + std::string(name ? name : "") + "' " + reason +
-                         "; name others by geoms, or give volume [m^3]");
-    }
-  }
-  return true;
-}
-
-bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
-  std::vector<mjtNum> center;
-  if (!config.Numbers("center_of_buoyancy", {3}, "3 numbers [m], body axes", &center) ||
-      !ReadSolids(m, config, out)) {
-    return false;
-  }
-  out->buoyant = config.Has("volume");
-  const bool automatic = config.Text("volume") == "auto";
-  if (!out->buoyant && !center.empty()) return config.Fail("center_of_buoyancy needs volume");
-  if (automatic && out->solids.empty()) {
-    return config.Refuse("volume",
-                         "auto needs a sphere, ellipsoid, capsule, cylinder, box or "
-                         "mesh geom on this body; or a number > 0 [m^3]");
-  }
-  if (out->buoyant && !automatic &&
-      !config.Number("volume", kTiny, kInfinity, "auto or a number > 0 [m^3]", &out->volume)) {
-    return false;
-  }
-  if (out->solids.empty() && out->buoyant) {
-    const mjtNum* at = center.empty() ? m->body_ipos + 3 * out->id : center.data();
-    out->solids.push_back(BallSolid(out->volume, at));
-  }
-  for (const Solid& solid : out->solids) {
-    out->solid_volume += solid.volume;
-    mju_addToScl3(out->solid_moment, solid.center, solid.volume);
-  }
-  for (const Solid& solid : out->solids) {
-    mjtNum middle[3];
-    mju_scl3(middle, out->solid_moment, 1 / out->solid_volume);
-    out->solid_radius = std::max(out->solid_radius, mju_dist3(solid.center, middle) + solid.radius);
-  }
-  if (automatic) out->volume = out->solid_volume;
-  if (center.empty()) return true;
-  mju_addScl3(out->center_shift, center.data(), out->solid_moment, -1 / out->solid_volume);
-  return true;
-}
-
 }  // namespace
 
 const char* const kBodyAttributes[] = {
@@ -268,14 +151,15 @@ const char* const kBodyAttributes[] = {
     "geoms"};
 const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
 
-bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, BodyFluid* out) {
+bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bool has_foil,
+              BodyFluid* out) {
   const Config config(m, instance, BodyTitle(m, body));
   out->id = body;
   std::vector<mjtNum> point;
   if (!config.Numbers("reference_point", {3}, "3 numbers [m], body axes", &point)) return false;
   if (!point.empty()) mju_copy3(out->point, point.data());
-  if (!ReadDrag(m, config, out) || !ReadAddedMass(m, config, out) ||
-      !ReadDamping(config, &out->damping) || !ReadTotals(m, config, medium, out) ||
+  if (!ReadDamping(config, &out->damping) || !ReadDrag(m, config, medium, has_foil, out) ||
+      !ReadAddedMass(m, config, out) || !ReadTotals(m, config, medium, out) ||
       !ReadBuoyancy(m, config, out)) {
     return false;
   }

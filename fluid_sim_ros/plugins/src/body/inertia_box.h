@@ -16,13 +16,19 @@ namespace fluid_sim {
 // Full edge lengths of the equivalent box of body `body` [m].
 void EquivalentInertiaBox(const mjModel* m, int body, mjtNum edges[3]);
 
-// Quadratic drag of the box faces; w, v: angular and linear velocity [rad/s], [m/s].
-Wrench InertiaBoxDrag(const mjtNum edges[3], const FluidConstants& fluid, const mjtNum w[3],
-                      const mjtNum v[3]);
+// Resistance of the box to v and w along each axis [N s/m], [N m s]: force_i = -linear_i v_i. First
+// of the quadratic drag of its faces, then of the viscous term (Stokes drag of the sphere whose
+// diameter is the mean edge), alike along all axes.
+struct BoxResistance {
+  mjtNum linear[3], angular[3];
+  mjtNum viscous_linear, viscous_angular;
 
-// Stokes drag of the sphere whose diameter is the mean edge.
-Wrench InertiaBoxViscous(const mjtNum edges[3], const FluidConstants& fluid, const mjtNum w[3],
-                         const mjtNum v[3]);
+  Wrench Drag(const mjtNum w[3], const mjtNum v[3]) const;
+  Wrench Viscous(const mjtNum w[3], const mjtNum v[3]) const;
+};
+
+BoxResistance InertiaBoxResistance(const mjtNum edges[3], const FluidConstants& fluid,
+                                   const mjtNum w[3], const mjtNum v[3]);
 
 }  // namespace fluid_sim
 

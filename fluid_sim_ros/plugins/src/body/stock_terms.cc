@@ -25,9 +25,9 @@ void AddInertiaBox(const mjModel* m, const mjData* d, int body, const StockWind&
   mjtNum edges[3], w[3], v[3];
   EquivalentInertiaBox(m, body, edges);
   RelativeVelocity(m, d, mjOBJ_BODY, body, wind, rotation, w, v);
-  AddLocalWrench(InertiaBoxDrag(edges, fluid, w, v), rotation, origin, point_w, 1, terms + kDrag);
-  AddLocalWrench(InertiaBoxViscous(edges, fluid, w, v), rotation, origin, point_w, 1,
-                 terms + kViscous);
+  const BoxResistance resistance = InertiaBoxResistance(edges, fluid, w, v);
+  AddLocalWrench(resistance.Drag(w, v), rotation, origin, point_w, 1, terms + kDrag);
+  AddLocalWrench(resistance.Viscous(w, v), rotation, origin, point_w, 1, terms + kViscous);
 }
 
 void AddEllipsoid(const mjModel* m, const mjData* d, int geom, const StockWind& wind,

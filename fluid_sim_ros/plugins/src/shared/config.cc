@@ -49,7 +49,7 @@ bool IsPlugin(const mjModel* m, int instance, const char* name) {
 }
 
 std::string Config::Text(const char* key) const {
-  const char* value = mj_getPluginConfig(model_, instance_, key);
+  const char* value = instance_ < 0 ? nullptr : mj_getPluginConfig(model_, instance_, key);
   const std::string text = value ? value : "";
   const size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return "";
@@ -101,7 +101,8 @@ bool Config::Refuse(const char* key, const std::string& allowed) const {
 }
 
 bool Config::Fail(const std::string& sentence) const {
-  mju_warning("%s: %s: %s", PluginName(model_, instance_), owner_.c_str(), sentence.c_str());
+  const char* plugin = instance_ < 0 ? kBodyPlugin : PluginName(model_, instance_);
+  mju_warning("%s: %s: %s", plugin, owner_.c_str(), sentence.c_str());
   return false;
 }
 

@@ -11,7 +11,8 @@
 
 namespace fluid_sim {
 
-// Attribute values of one instance, for the owner that messages name ("body 'hull'").
+// Attribute values of one instance, for the owner that messages name ("body 'hull'"). Instance -1
+// is a fluid_sim.body without any key.
 class Config {
  public:
   Config(const mjModel* m, int instance, std::string owner)

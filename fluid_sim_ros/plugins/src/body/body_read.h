@@ -1,0 +1,27 @@
+// Parts of the reader of fluid_sim.body.
+
+#ifndef FLUID_SIM_BODY_BODY_READ_H_
+#define FLUID_SIM_BODY_BODY_READ_H_
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "body/body.h"
+#include "shared/config.h"
+
+namespace fluid_sim {
+
+// Geoms of a body with fluidshape="ellipsoid".
+std::vector<int> FluidGeoms(const mjModel* m, int body);
+
+// Who brakes the body, and how; the damping must have been read.
+bool ReadDrag(const mjModel* m, const Config& config, const Medium& medium, bool has_foil,
+              BodyFluid* out);
+
+// Displaced volume, its centre, and the solids that a surface may cut.
+bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out);
+
+}  // namespace fluid_sim
+
+#endif  // FLUID_SIM_BODY_BODY_READ_H_
