@@ -19,9 +19,9 @@ from typing import Any
 
 from benchmarks.common import arguments, wall_seconds, write
 from fluid_sim_ros import Simulation
+from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
 from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
-    AutopilotPacing,
     Bridge,
     Surroundings,
     open_bridge,

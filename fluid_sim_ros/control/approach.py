@@ -38,19 +38,50 @@ class Approach:
         self.restart(0.0, 0.0)
 
     def restart(self, vx: float, vy: float) -> None:
-        """Begin at a velocity [m/s], the present one of the vehicle."""
+        """
+        Begin at a velocity, the present one of the vehicle.
+
+        Parameters
+        ----------
+        vx, vy
+            Of the vehicle along the two axes [m/s].
+
+        """
         self.velocity = (vx, vy)
         self.acceleration = (0.0, 0.0)
 
     def speed(self, distance: float) -> float:
-        """Return the speed to have at a distance from the target [m/s]."""
+        """
+        Return the speed to have at a distance from the target.
+
+        Parameters
+        ----------
+        distance
+            To the target [m], at least 0.
+
+        Returns
+        -------
+        float
+            [m/s], at most the largest speed.
+
+        """
         if distance <= self._linear:
             return min(self._gain * distance, self._max_speed)
         braking = math.sqrt(2.0 * self._most * (distance - 0.5 * self._linear))
         return min(braking, self._max_speed)
 
     def step(self, dx: float, dy: float, dt: float) -> None:
-        """Move the reference on: target less position [m], time since the last step [s]."""
+        """
+        Move the reference on.
+
+        Parameters
+        ----------
+        dx, dy
+            Target less position along the two axes [m].
+        dt
+            Time since the last step [s]; 0 for the same state again, which changes nothing.
+
+        """
         if dt <= 0.0:  # the same state again
             return
         distance = math.hypot(dx, dy)

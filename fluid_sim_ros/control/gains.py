@@ -14,13 +14,33 @@ def gain(
     Return a dataclass field of a gain or limit with its unit and meaning.
 
     ``positive``: it must not be 0. ``acute``: an angle below pi/2.
+
+    Parameters
+    ----------
+    default
+        Its value where none is given, in ``unit``.
+    unit, meaning
+        What describes it to people; see ``describe``.
+    positive
+        Whether it must not be 0.
+    acute
+        Whether it is an angle below pi/2.
+
     """
     metadata = {'unit': unit, 'meaning': meaning, 'positive': positive, 'acute': acute}
     return field(default=default, metadata=metadata)
 
 
 def describe(entry: 'Field[Any]') -> str:
-    """Return ``[unit] meaning`` of a field made by `gain`."""
+    """
+    Return ``[unit] meaning`` of a field made by `gain`.
+
+    Parameters
+    ----------
+    entry
+        Of a ``Gains`` class.
+
+    """
     return f'[{entry.metadata["unit"]}] {entry.metadata["meaning"]}'
 
 

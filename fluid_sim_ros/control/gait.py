@@ -47,7 +47,20 @@ class JointWave:
             raise ConfigError('joint wave: all numbers must be finite, frequency and ramp >= 0')
 
     def angles(self, time: float) -> list[float]:
-        """Return the joint angles [rad] at a time [s] from the start."""
+        """
+        Return the joint angles at a time from the start.
+
+        Parameters
+        ----------
+        time
+            [s].
+
+        Returns
+        -------
+        list
+            Angles [rad], one per joint.
+
+        """
         rise = 1.0
         if time < self.ramp:
             rise = 0.5 * (1.0 - math.cos(math.pi * max(time, 0.0) / self.ramp))

@@ -37,11 +37,29 @@ class Integral:
         self._pending = (0.0,) * len(self.value)
 
     def advance(self, dt: float) -> None:
-        """Integrate the error kept over the time since its state [s]."""
+        """
+        Integrate the error that was kept over the time since its state.
+
+        Parameters
+        ----------
+        dt
+            That time [s].
+
+        """
         gain, bound, value = self._rate * dt, self._bound, self.value
         for axis, error in enumerate(self._pending):
             value[axis] = min(max(value[axis] + gain * error, -bound), bound)
 
     def keep(self, *error: float, limited: bool = False) -> None:
-        """Keep the errors of this state, one per axis; or nothing, where a limit binds at it."""
+        """
+        Keep the errors of this state, or nothing where a limit binds at it.
+
+        Parameters
+        ----------
+        *error
+            One per axis, in the unit of the value over rate and second.
+        limited
+            Whether a limit binds.
+
+        """
         self._pending = (0.0,) * len(error) if limited else error

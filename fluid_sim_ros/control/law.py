@@ -37,10 +37,26 @@ class ControlLaw:
 
 
 def clamp(value: float, low: float, high: float) -> float:
-    """Return the nearest number from ``low`` to ``high``."""
+    """
+    Return the nearest number from ``low`` to ``high``.
+
+    Parameters
+    ----------
+    value, low, high
+        Numbers of one unit, ``low`` not above ``high``.
+
+    """
     return min(max(value, low), high)
 
 
 def within(value: float, bound: float) -> float:
-    """Return the nearest number from ``-bound`` to ``bound``."""
+    """
+    Return the nearest number from ``-bound`` to ``bound``.
+
+    Parameters
+    ----------
+    value, bound
+        Numbers of one unit, ``bound`` not below 0.
+
+    """
     return min(max(value, -bound), bound)

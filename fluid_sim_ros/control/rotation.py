@@ -13,7 +13,20 @@ Vector3 = tuple[float, float, float]
 
 
 def from_quaternion(quat_wb_wxyz: Sequence[float]) -> Rotation:
-    """Return R_wb of a quaternion (w, x, y, z); any norm above 0, as the norm is divided out."""
+    """
+    Return R_wb of a quaternion; its norm is divided out.
+
+    Parameters
+    ----------
+    quat_wb_wxyz
+        Body to world, scalar first, of any norm above 0, shape (4,).
+
+    Returns
+    -------
+    tuple
+        R_wb, nine numbers row by row.
+
+    """
     w, x, y, z = quat_wb_wxyz
     s = 2.0 / (w * w + x * x + y * y + z * z)
     xs, ys, zs = x * s, y * s, z * s
@@ -28,7 +41,20 @@ def from_quaternion(quat_wb_wxyz: Sequence[float]) -> Rotation:
 
 
 def from_yaw(yaw: float) -> Rotation:
-    """Return R_wb of a level body with a heading [rad], counter-clockwise from east (ENU)."""
+    """
+    Return R_wb of a level body.
+
+    Parameters
+    ----------
+    yaw
+        Heading [rad], counter-clockwise from east (ENU).
+
+    Returns
+    -------
+    tuple
+        R_wb, nine numbers row by row.
+
+    """
     c, s = math.cos(yaw), math.sin(yaw)
     return (c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 
@@ -45,6 +71,11 @@ def from_thrust_axis(axis_w: Vector3, yaw: float) -> Rotation:
         Direction of the body's z axis, world axes, unit length, within 90 deg of up.
     yaw
         Heading [rad], counter-clockwise from east.
+
+    Returns
+    -------
+    tuple
+        R_wb, nine numbers row by row.
 
     """
     c, s = math.cos(yaw), math.sin(yaw)
@@ -66,6 +97,17 @@ def error(desired: Rotation, actual: Rotation) -> Vector3:
 
     The logarithm of R^T R_d [rad]; its length is the angle, up to pi. At a half turn, where the
     axis is not unique, the result keeps the length of the largest error short of it.
+
+    Parameters
+    ----------
+    desired, actual
+        R_wb that is wanted, and that there is.
+
+    Returns
+    -------
+    tuple
+        [rad], body axes of the actual attitude, shape (3,).
+
     """
     a, b = actual, desired
     # E = R^T R_d; of its antisymmetric part sin(angle) axis, of its trace 1 + 2 cos(angle)
@@ -93,7 +135,22 @@ def error(desired: Rotation, actual: Rotation) -> Vector3:
 
 
 def to_body(rotation_wb: Rotation, vector_w: Sequence[float]) -> Vector3:
-    """Return R_wb^T v: world axes to body axes."""
+    """
+    Return R_wb^T v: world axes to body axes.
+
+    Parameters
+    ----------
+    rotation_wb
+        R_wb.
+    vector_w
+        Of any unit, world axes, shape (3,).
+
+    Returns
+    -------
+    tuple
+        The same vector in body axes.
+
+    """
     r, (x, y, z) = rotation_wb, vector_w
     return (
         r[0] * x + r[3] * y + r[6] * z,
@@ -103,7 +160,22 @@ def to_body(rotation_wb: Rotation, vector_w: Sequence[float]) -> Vector3:
 
 
 def to_world(rotation_wb: Rotation, vector_b: Sequence[float]) -> Vector3:
-    """Return R_wb v: body axes to world axes."""
+    """
+    Return R_wb v: body axes to world axes.
+
+    Parameters
+    ----------
+    rotation_wb
+        R_wb.
+    vector_b
+        Of any unit, body axes, shape (3,).
+
+    Returns
+    -------
+    tuple
+        The same vector in world axes.
+
+    """
     r, (x, y, z) = rotation_wb, vector_b
     return (
         r[0] * x + r[1] * y + r[2] * z,
@@ -113,20 +185,52 @@ def to_world(rotation_wb: Rotation, vector_b: Sequence[float]) -> Vector3:
 
 
 def yaw_of(rotation_wb: Rotation) -> float:
-    """Return the heading of the body's x axis [rad], counter-clockwise from east."""
+    """
+    Return the heading of the body's x axis [rad], counter-clockwise from east.
+
+    Parameters
+    ----------
+    rotation_wb
+        R_wb.
+
+    """
     return math.atan2(rotation_wb[3], rotation_wb[0])
 
 
 def roll_of(rotation_wb: Rotation) -> float:
-    """Return the roll about the body's x axis [rad], right side down; 0 when level."""
+    """
+    Return the roll about the body's x axis [rad], right side down; 0 when level.
+
+    Parameters
+    ----------
+    rotation_wb
+        R_wb.
+
+    """
     return math.atan2(rotation_wb[7], rotation_wb[8])
 
 
 def elevation_of(rotation_wb: Rotation) -> float:
-    """Return the angle of the body's x axis above the horizon [rad]: pitch, nose up."""
+    """
+    Return the angle of the body's x axis above the horizon [rad]: pitch, nose up.
+
+    Parameters
+    ----------
+    rotation_wb
+        R_wb.
+
+    """
     return math.asin(min(max(rotation_wb[6], -1.0), 1.0))
 
 
 def wrap(angle: float) -> float:
-    """Return the same angle in [-pi, pi]."""
+    """
+    Return the same angle in [-pi, pi].
+
+    Parameters
+    ----------
+    angle
+        [rad].
+
+    """
     return math.remainder(angle, math.tau)

@@ -25,6 +25,17 @@ class StampClock:
         Return the time since the last stamp [s], between 0 and ``LONGEST_PERIOD``.
 
         A repeated stamp gives 0, so that the answer to a repeated state is the same answer.
+
+        Parameters
+        ----------
+        stamp
+            Of the present state [s].
+
+        Returns
+        -------
+        float
+            [s].
+
         """
         last, self._last = self._last, stamp
         self.restarted = last is None or stamp < last

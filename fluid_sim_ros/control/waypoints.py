@@ -36,6 +36,16 @@ def from_flat(numbers: Sequence[float]) -> list[Waypoint]:
     """
     Read waypoints from a flat list: x, y, z, yaw, hold, x, y, ...
 
+    Parameters
+    ----------
+    numbers
+        x, y, z [m], yaw [rad], hold [s] of each waypoint.
+
+    Returns
+    -------
+    list
+        The waypoints, in order.
+
     Raises
     ------
     ConfigError
@@ -65,6 +75,16 @@ class WaypointPlan:
     Goes through waypoints: the next one after staying ``hold`` seconds within ``radius``.
 
     The last one is held for ever. An empty plan has no target until ``go_to``.
+
+    Parameters
+    ----------
+    waypoints
+        To go through, in order.
+    radius
+        Distance at which a waypoint counts as reached [m].
+    turn
+        Heading error at which it does [rad].
+
     """
 
     def __init__(
@@ -83,7 +103,15 @@ class WaypointPlan:
         self._override = None
 
     def go_to(self, waypoint: Waypoint) -> None:
-        """Leave the plan and hold this waypoint until the next ``go_to`` or ``restart``."""
+        """
+        Leave the plan and hold this waypoint until the next ``go_to`` or ``restart``.
+
+        Parameters
+        ----------
+        waypoint
+            What to hold.
+
+        """
         self._override = waypoint
 
     @property

@@ -3,19 +3,15 @@ Where the core, the node and the command line meet an autopilot.
 
 The bridge itself is a part of its own (``mavlink``), which neither the core nor the node may
 import: they know the protocol below, and the name under which the part is found when it is
-wanted. An autopilot is met as a pacing: simulated time goes on when it has answered.
+wanted.
 """
 
-import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, ClassVar, Literal, Protocol
 
 from fluid_sim_ros.errors import needed_for
-from fluid_sim_ros.loop.pacing import Pacing, Source
-from fluid_sim_ros.messages.commands import JOINT_STATE, MULTI_ARRAY
-from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.simulation import Simulation
 
 #: The part that bridges; it has ``open_bridge`` with the arguments of the function below.
@@ -77,16 +73,58 @@ class Bridge(Protocol):
     takes_sticks: ClassVar[bool]
 
     def begin(self, simulation: Simulation) -> None:
-        """Go on from the simulation's present time, which a reset may have set back."""
+        """
+        Go on from the simulation's present time, which a reset may have set back.
+
+        Parameters
+        ----------
+        simulation
+            What is flown.
+
+        """
 
     def steps_left(self, simulation: Simulation) -> int:
-        """Return the steps to the next exchange."""
+        """
+        Return the steps to the next exchange.
+
+        Parameters
+        ----------
+        simulation
+            What is flown.
+
+        """
 
     def meet(self, simulation: Simulation) -> bool:
-        """Exchange state and commands at a boundary; False: no answer yet, do not step."""
+        """
+        Exchange state and commands at a boundary.
+
+        Parameters
+        ----------
+        simulation
+            What is flown.
+
+        Returns
+        -------
+        bool
+            False: no answer yet, do not step.
+
+        """
 
     def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
-        """Take the sticks of a radio control, -1 to 1; CommandError where they do not fit."""
+        """
+        Take the sticks of a radio control.
+
+        Parameters
+        ----------
+        axes, buttons
+            -1 to 1 each, in the order of sensor_msgs/Joy.
+
+        Raises
+        ------
+        CommandError
+            If they do not fit.
+
+        """
 
     def status(self) -> BridgeStatus:
         """Return what to show people."""
@@ -99,10 +137,28 @@ class CommandLog(Protocol):
     """Keeps what the autopilot commands, so that the run can be repeated without it."""
 
     def command(self, topic: str, data: bytes) -> None:
-        """Keep a command message, by its topic relative to the namespace."""
+        """
+        Keep a command message.
+
+        Parameters
+        ----------
+        topic
+            Its name relative to the namespace.
+        data
+            Its CDR bytes.
+
+        """
 
     def event(self, **change: Any) -> None:
-        """Keep a change that no message made."""
+        """
+        Keep a change that no message made.
+
+        Parameters
+        ----------
+        **change
+            What has changed, by name.
+
+        """
 
 
 @dataclass
@@ -126,80 +182,25 @@ class Surroundings:
     log: CommandLog | None = None
 
 
-class AutopilotPacing(Pacing):
-    """
-    Simulated time goes on when the autopilot has answered, and no faster than ``clock`` allows.
-
-    Parameters
-    ----------
-    bridge
-        The autopilot.
-    clock
-        ``Pacing`` (free) or ``RealTime``.
-
-    """
-
-    def __init__(self, bridge: Bridge, clock: Pacing) -> None:
-        self.bridge = bridge
-        self.clock = clock
-
-    def begin(self, simulation: Simulation) -> None:
-        """Start (again) from the simulation's present time."""
-        self.clock.begin(simulation)
-        self.bridge.begin(simulation)
-
-    def steps_left(self, simulation: Simulation) -> int:
-        """Return the steps to the next exchange, or to the next look at the clock."""
-        return min(self.clock.steps_left(simulation), self.bridge.steps_left(simulation))
-
-    def is_due(self, simulation: Simulation) -> bool:
-        """Wait for the boundary's wall time."""
-        return self.clock.is_due(simulation)
-
-    def meet(self, simulation: Simulation, source: Source) -> bool:
-        """Take in other commands, then those of the autopilot."""
-        source.poll(simulation)
-        if self.bridge.meet(simulation):
-            return True
-        self.clock.begin(simulation)  # the time that was waited is not to be caught up
-        return False
-
-
-class VehicleCommands:
-    """Commands of one vehicle by an autopilot: logged as messages, then applied."""
-
-    def __init__(self, simulation: Simulation, vehicle: str, surroundings: Surroundings) -> None:
-        target = simulation.vehicle(vehicle)
-        self._simulation = simulation
-        self._vehicle = vehicle
-        self._surroundings = surroundings
-        thrusts, joints = [0.0] * len(target.thrusters), [0.0] * len(target.joints)
-        self._thrust = Template.of(MULTI_ARRAY, {'data': thrusts}, ['data'])
-        self._joints = Template.of(
-            JOINT_STATE, {'name': target.joints, 'position': joints}, ['position']
-        )
-        self.saturated = 0
-
-    def set(self, thrusts: Sequence[float], joints: Sequence[float]) -> None:
-        """Command all thrusters [N], and all joints; an empty sequence leaves them as they are."""
-        simulation, name, log = self._simulation, self._vehicle, self._surroundings.log
-        if thrusts:
-            if log is not None:
-                struct.pack_into(f'<{len(thrusts)}d', self._thrust.blocks[0], 0, *thrusts)
-                log.command(f'{name}/cmd/thrust', self._thrust.bytes())
-            self.saturated += simulation.set_thrust(name, thrusts)
-        if joints:
-            if log is not None:
-                struct.pack_into(f'<{len(joints)}d', self._joints.blocks[0], 0, *joints)
-                log.command(f'{name}/cmd/joints', self._joints.bytes())
-            self.saturated += simulation.set_joints(name, joints)
-
-
 def open_bridge(
     simulation: Simulation, options: AutopilotOptions, surroundings: Surroundings
 ) -> Bridge:
     """
     Listen for an autopilot.
+
+    Parameters
+    ----------
+    simulation
+        What is flown.
+    options
+        By whom, and where to listen.
+    surroundings
+        What else the bridge acts on.
+
+    Returns
+    -------
+    Bridge
+        Listening; close it.
 
     Raises
     ------

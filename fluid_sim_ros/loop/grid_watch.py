@@ -15,6 +15,11 @@ class GridWatch:
     """
     Looks at the vehicles of a simulation, each time that it is asked.
 
+    Parameters
+    ----------
+    simulation
+        What is looked at.
+
     Attributes
     ----------
     lines

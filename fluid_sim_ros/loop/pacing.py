@@ -19,14 +19,37 @@ class Source(Protocol):
     """Where commands come from."""
 
     def poll(self, simulation: Simulation) -> None:
-        """Apply what has arrived; never blocks."""
+        """
+        Apply what has arrived; never blocks.
+
+        Parameters
+        ----------
+        simulation
+            What is commanded.
+
+        """
 
 
 class LockstepSource(Source, Protocol):
     """A source that can be waited for."""
 
     def wait(self, simulation: Simulation, timeout: float) -> bool:
-        """Block up to ``timeout`` [s] for the answer to the present state; True when applied."""
+        """
+        Block until the answer to the present state has come.
+
+        Parameters
+        ----------
+        simulation
+            What is commanded.
+        timeout
+            Of wall time [s].
+
+        Returns
+        -------
+        bool
+            Whether it has come, and was applied.
+
+        """
 
 
 @dataclass
@@ -34,18 +57,62 @@ class Pacing:
     """How fast simulated time may pass: as it comes (``free``)."""
 
     def begin(self, simulation: Simulation) -> None:
-        """Start (again) from the simulation's present time."""
+        """
+        Start (again) from the simulation's present time.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        """
 
     def steps_left(self, simulation: Simulation) -> int:
-        """Return the most steps that may be taken before the next look at the source."""
+        """
+        Return the most steps that may be taken before the next look at the source.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        """
         return NEVER
 
     def is_due(self, simulation: Simulation) -> bool:
-        """Wait a short while for the boundary's wall time; False: not yet, serve requests."""
+        """
+        Wait a short while for the boundary's wall time.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        Returns
+        -------
+        bool
+            False: not yet, serve requests and come back.
+
+        """
         return True
 
     def meet(self, simulation: Simulation, source: Source) -> bool:
-        """Take in commands at a boundary; False: do not step yet, come back after requests."""
+        """
+        Take in commands at a boundary.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+        source
+            Of the commands.
+
+        Returns
+        -------
+        bool
+            False: do not step yet, serve requests and come back.
+
+        """
         source.poll(simulation)
         return True
 
@@ -77,16 +144,45 @@ class RealTime(Pacing):
             raise ConfigError(f'real-time factor {self.factor}: must be finite and above 0')
 
     def begin(self, simulation: Simulation) -> None:
-        """Start (again) from the present wall time."""
+        """
+        Start (again) from the present wall time.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        """
         self._wall = time.perf_counter()
         self._simulated = simulation.time
 
     def steps_left(self, simulation: Simulation) -> int:
-        """Return the steps to the next look at the clock."""
+        """
+        Return the steps to the next look at the clock.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        """
         return self.tick - simulation.tick % self.tick
 
     def is_due(self, simulation: Simulation) -> bool:
-        """Sleep until the boundary's wall time, a short while at most."""
+        """
+        Sleep until the boundary's wall time, a short while at most.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        Returns
+        -------
+        bool
+            False: not yet, serve requests and come back.
+
+        """
         due = self._wall + (simulation.time - self._simulated) / self.factor
         ahead = due - time.perf_counter()
         if ahead > _LONGEST_SLEEP:  # wake for requests, then come back
@@ -124,15 +220,46 @@ class Lockstep(Pacing):
     _waiting_for: int = field(default=-1, init=False)
 
     def begin(self, simulation: Simulation) -> None:
-        """Forget what was waited for."""
+        """
+        Forget what was waited for.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        """
         self._waiting_for = -1
 
     def steps_left(self, simulation: Simulation) -> int:
-        """Return the steps to the next answer."""
+        """
+        Return the steps to the next answer.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+
+        """
         return self.period - simulation.step_count % self.period
 
     def meet(self, simulation: Simulation, source: Source) -> bool:
-        """Wait for the answer at every period's boundary."""
+        """
+        Wait for the answer at every period's boundary.
+
+        Parameters
+        ----------
+        simulation
+            What is run.
+        source
+            That is waited for; see ``LockstepSource``.
+
+        Returns
+        -------
+        bool
+            False: not answered, do not step.
+
+        """
         if simulation.step_count % self.period:
             return True
         if self._waiting_for != simulation.step_count:

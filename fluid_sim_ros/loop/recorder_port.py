@@ -87,13 +87,39 @@ class RecorderPort(Protocol):
     dropped: int
 
     def tick(self, messages: Sequence[tuple[int, bytes]]) -> None:
-        """Keep state messages of the present step, by place in the list; hand all over."""
+        """
+        Keep state messages of the present step, and hand over all that waits.
+
+        Parameters
+        ----------
+        messages
+            Place in the list of topics, and CDR bytes, of each.
+
+        """
 
     def command(self, topic: int, data: bytes) -> None:
-        """Keep a command as it was received, before it takes effect; never dropped."""
+        """
+        Keep a command as it was received, before it takes effect; never dropped.
+
+        Parameters
+        ----------
+        topic
+            Place in the list of topics.
+        data
+            CDR bytes.
+
+        """
 
     def event(self, **change: Any) -> None:
-        """Keep a change that no command message made, such as a thrust that went stale."""
+        """
+        Keep a change that no command message made, such as a thrust that went stale.
+
+        Parameters
+        ----------
+        **change
+            What has changed, by name.
+
+        """
 
     def flush(self) -> None:
         """Hand over what has waited long enough; for loops that do not tick."""
@@ -110,6 +136,20 @@ def open_recorder(
 ) -> RecorderPort:
     """
     Begin to record a simulation.
+
+    Parameters
+    ----------
+    simulation
+        At step 0.
+    topics
+        All that will be recorded.
+    options
+        Where to, and how.
+
+    Returns
+    -------
+    RecorderPort
+        Recording; close it.
 
     Raises
     ------
@@ -134,6 +174,21 @@ def selected(
     They are applied in their order: each adds what it matches, or takes it away where it begins
     with ``!``. Where the first one takes away, all others are chosen before. ``option`` is what
     the user gave the patterns to.
+
+    Parameters
+    ----------
+    names
+        All that there are.
+    patterns
+        Applied in their order: each adds what it matches, or takes it away where it begins with
+        ``!``. Where the first one takes away, all others are chosen before.
+    option
+        What the user gave the patterns to, for errors.
+
+    Returns
+    -------
+    set
+        Of the names.
 
     Raises
     ------

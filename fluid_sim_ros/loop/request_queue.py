@@ -15,7 +15,15 @@ IDLE_WAIT = 0.05
 
 
 class RequestQueue:
-    """Work that other threads want done between two steps (reset, pause, parameter changes)."""
+    """
+    Work that other threads want done between two steps (reset, pause, parameter changes).
+
+    Parameters
+    ----------
+    on_arrival
+        Called in the other thread when work has arrived, to wake the stepping thread.
+
+    """
 
     def __init__(self, on_arrival: Callable[[], None] = lambda: None) -> None:
         self._waiting: deque[tuple[Callable[[], object], Future[object]]] = deque()
@@ -26,6 +34,18 @@ class RequestQueue:
     def call(self, work: Callable[[], Result], timeout: float) -> Result:
         """
         Have the stepping thread run ``work`` at its next step boundary and return its result.
+
+        Parameters
+        ----------
+        work
+            Called once, in the stepping thread.
+        timeout
+            Of wall time [s].
+
+        Returns
+        -------
+        object
+            What ``work`` returned.
 
         Raises
         ------

@@ -15,7 +15,15 @@ class Sink(Protocol):
     period: int
 
     def write(self, simulation: Simulation) -> None:
-        """Take the state at this step boundary."""
+        """
+        Take the state at this step boundary.
+
+        Parameters
+        ----------
+        simulation
+            At the boundary.
+
+        """
 
 
 class Runner:
@@ -69,6 +77,11 @@ class Runner:
         """
         Run until tick ``until``, ``stop``, or an error.
 
+        Parameters
+        ----------
+        until
+            Tick.
+
         Raises
         ------
         DivergedError
@@ -98,7 +111,15 @@ class Runner:
             simulation.step(self._advance(until - tick))
 
     def advance_paused(self, steps: int) -> None:
-        """Step while paused (a request of another thread), writing what falls due."""
+        """
+        Step while paused (a request of another thread), writing what falls due.
+
+        Parameters
+        ----------
+        steps
+            How many.
+
+        """
         simulation = self.simulation
         end = simulation.step_count + steps
         while simulation.step_count < end:
@@ -127,4 +148,12 @@ class NoSource:
     """A source without commands: the scene's own schedule is all that happens."""
 
     def poll(self, simulation: Simulation) -> None:
-        """Do nothing."""
+        """
+        Do nothing.
+
+        Parameters
+        ----------
+        simulation
+            Left alone.
+
+        """

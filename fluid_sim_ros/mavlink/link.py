@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from typing import Any, ClassVar, Literal
 
 from fluid_sim_ros.errors import CommandError
+from fluid_sim_ros.loop.autopilot_commands import VehicleCommands
 from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
     BridgeStatus,
     Surroundings,
-    VehicleCommands,
 )
 from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.mapping import ActuatorMap

@@ -79,6 +79,17 @@ def check_body(medium: Medium, mass: float, size: Array, buoyancy: float) -> Non
     """
     Refuse a mass, size or buoyancy that no vehicle has.
 
+    Parameters
+    ----------
+    medium
+        ``air`` or ``water``.
+    mass
+        [kg].
+    size
+        Length, width, height of the box [m], shape (3,).
+    buoyancy
+        Net force upward under water [N].
+
     Raises
     ------
     ConfigError
@@ -124,9 +135,21 @@ def check_body(medium: Medium, mass: float, size: Array, buoyancy: float) -> Non
 
 def hover_thrusts(thrusters: list[Thruster], weight: float) -> Array:
     """
-    Return the thrusts [N] that hold a weight [N] level and at rest.
+    Return the thrusts that hold a weight level and at rest.
 
     Those of least norm where they are within the limits, else the nearest within them.
+
+    Parameters
+    ----------
+    thrusters
+        Of the vehicle.
+    weight
+        [N].
+
+    Returns
+    -------
+    Array
+        [N], one per thruster, within the limits.
 
     Raises
     ------

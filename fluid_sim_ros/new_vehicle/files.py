@@ -91,6 +91,20 @@ def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> N
     """
     Load the files of a design, run them for ``TRIAL`` seconds, and write them into a folder.
 
+    Parameters
+    ----------
+    design
+        What to write.
+    folder
+        Where to; made where it is not there.
+    overwrite
+        Whether files that exist are replaced.
+
+    Returns
+    -------
+    NewVehicle
+        The files, and the drift in the trial.
+
     Raises
     ------
     ConfigError

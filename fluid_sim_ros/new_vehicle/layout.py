@@ -96,7 +96,20 @@ class Thruster:
         return wrench
 
     def speed(self, thrust: float) -> float:
-        """Return the rotor speed [rad/s] that gives a thrust [N] at rest."""
+        """
+        Return the rotor speed that gives a thrust at rest.
+
+        Parameters
+        ----------
+        thrust
+            [N].
+
+        Returns
+        -------
+        float
+            [rad/s], with the sign of the thrust.
+
+        """
         return float(np.copysign(np.sqrt(abs(thrust) / self.k), thrust))
 
 

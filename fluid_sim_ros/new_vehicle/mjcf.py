@@ -126,7 +126,15 @@ _TAIL = """
 
 
 def mjcf_of(design: Design) -> str:
-    """Return the model of a design as MJCF."""
+    """
+    Return the model of a design as MJCF.
+
+    Parameters
+    ----------
+    design
+        What to write.
+
+    """
     water = design.medium == 'water'
     start, largest = start_height(design), float(design.size.max())
     head = _HEAD.format(
@@ -147,7 +155,15 @@ def mjcf_of(design: Design) -> str:
 
 
 def start_height(design: Design) -> float:
-    """Return the height at which the vehicle starts [m], clear of ground and surface."""
+    """
+    Return the height at which the vehicle starts [m], clear of ground and surface.
+
+    Parameters
+    ----------
+    design
+        The vehicle.
+
+    """
     clear = 1.0 + 2.0 * float(design.size.max())
     return -clear if design.medium == 'water' else clear
 

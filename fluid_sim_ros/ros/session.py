@@ -7,7 +7,7 @@ from typing import Any
 from rclpy.node import Node
 
 from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
-from fluid_sim_ros.loop.autopilot_port import AutopilotPacing
+from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
 from fluid_sim_ros.loop.pacing import Lockstep, Pacing, RealTime
 from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.loop.runner import Runner

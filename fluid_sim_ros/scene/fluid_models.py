@@ -13,7 +13,27 @@ _ON_BODIES = (BODY, FOIL)
 
 
 def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
-    """Return the model of a spec; a ModelError is one line that names the file."""
+    """
+    Return the model of a spec.
+
+    Parameters
+    ----------
+    spec
+        What to compile.
+    path
+        File of the model, for errors.
+
+    Returns
+    -------
+    mujoco.MjModel
+        Compiled.
+
+    Raises
+    ------
+    ModelError
+        For a spec that does not compile: one line that names the file.
+
+    """
     try:
         return spec.compile()
     except ValueError as error:
@@ -28,6 +48,21 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
     a medium) is taken away with them; a body that they kept afloat gets gravcomp instead, so that
     a scene stays what it is. ``no_added_mass``: all that the scene has, but without the inertia of
     the added mass.
+
+    Parameters
+    ----------
+    spec
+        The model; changed.
+    fluid
+        One of ``FLUID_RUNGS``.
+    path
+        File of the model, for errors.
+
+    Raises
+    ------
+    ConfigError
+        If the model has nothing that the rung could be made of.
+
     """
     if fluid == 'no_added_mass':
         _take_added_mass_away(spec, path)
@@ -53,7 +88,15 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
 
 
 def has_body_plugins(spec: mujoco.MjSpec) -> bool:
-    """Return whether bodies have fluid forces by our plugins."""
+    """
+    Return whether bodies have fluid forces by our plugins.
+
+    Parameters
+    ----------
+    spec
+        The model.
+
+    """
     names = {plugin.plugin_name for plugin in spec.plugins}
     names |= {body.plugin.plugin_name for body in spec.bodies if body.plugin.active}
     return not names.isdisjoint(_ON_BODIES)

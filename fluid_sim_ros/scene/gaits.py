@@ -11,7 +11,29 @@ from fluid_sim_ros.step_clock import NEVER, exact
 
 
 class GaitCycle:
-    """One vehicle's wave, evaluated every ``period`` steps and held in between."""
+    """
+    One vehicle's wave, evaluated every ``period`` steps and held in between.
+
+    Parameters
+    ----------
+    gait
+        The wave.
+    vehicle
+        Whose joints.
+    timestep
+        Of the scene [s].
+
+    Attributes
+    ----------
+    period
+        Ticks between two evaluations.
+
+    Raises
+    ------
+    ConfigError
+        If the wave does not fit the joints, or its rate the timestep.
+
+    """
 
     def __init__(self, gait: Gait, vehicle: Vehicle, timestep: float) -> None:
         where = f"gait of '{vehicle.name}'"
@@ -35,7 +57,17 @@ class GaitCycle:
         self._tick = float(1 / exact(gait.rate))
 
     def write(self, step: int, control: Array) -> None:
-        """Write the joint commands of a step that is a multiple of the period."""
+        """
+        Write the joint commands of a tick that is a multiple of the period.
+
+        Parameters
+        ----------
+        step
+            The tick.
+        control
+            ``mjData.ctrl``; changed.
+
+        """
         control[self._ids] = self._wave.angles(step // self.period * self._tick)
 
 
@@ -44,6 +76,30 @@ class Gaits:
     The waves of all vehicles; ``next_step`` is what the step loop looks at.
 
     A command on a vehicle's joints ends its wave until the next reset.
+
+    Parameters
+    ----------
+    gaits
+        Wave by vehicle name.
+    vehicles
+        Those that there are, by name.
+    timestep
+        Of the scene [s].
+    where
+        What an error begins with.
+
+    Attributes
+    ----------
+    running
+        Names of the vehicles whose waves run.
+    next_step
+        Tick of the next evaluation.
+
+    Raises
+    ------
+    ConfigError
+        If a vehicle is not in the scene, or its wave does not fit it.
+
     """
 
     def __init__(
@@ -65,18 +121,46 @@ class Gaits:
         self.restart(0, tuple(self._all))
 
     def restart(self, step: int, running: tuple[str, ...] | None = None) -> None:
-        """Go on from a step with the named waves (None: all of the scene)."""
+        """
+        Go on from a tick.
+
+        Parameters
+        ----------
+        step
+            The tick.
+        running
+            Names of the vehicles whose waves run; None: all of the scene.
+
+        """
         self.running = tuple(self._all) if running is None else running
         self._schedule_after(step - 1)
 
     def end(self, vehicle: str) -> None:
-        """End a vehicle's wave, if it has one."""
+        """
+        End a vehicle's wave, if it has one.
+
+        Parameters
+        ----------
+        vehicle
+            Its name.
+
+        """
         if vehicle in self.running:
             self.running = tuple(name for name in self.running if name != vehicle)
             self._schedule_after(self.next_step - 1)
 
     def write_due(self, step: int, control: Array) -> None:
-        """Write the commands that take effect at this step."""
+        """
+        Write the commands that take effect at a tick.
+
+        Parameters
+        ----------
+        step
+            The tick.
+        control
+            ``mjData.ctrl``; changed.
+
+        """
         if step < self.next_step:
             return
         for name in self.running:

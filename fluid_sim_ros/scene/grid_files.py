@@ -36,6 +36,11 @@ def read_grid(path: Path) -> Grid:
     NetCDF (classic format): coordinate variables of the same names (or time), components with
     these dimensions in any order, units of length, time and speed as CF has them.
 
+    Parameters
+    ----------
+    path
+        ``.npz``, ``.nc`` or ``.cdf``.
+
     Raises
     ------
     ConfigError
@@ -140,19 +145,55 @@ def _grid(fields: Mapping[str, Array]) -> Grid:
 
 
 def grid_numbers(grid: Grid) -> Array:
-    """Return a grid as the numbers that a <numeric> holds for fluid_sim.medium."""
+    """
+    Return a grid as the numbers that a <numeric> holds for fluid_sim.medium.
+
+    Parameters
+    ----------
+    grid
+        Axes [s], [m] and velocities [m/s].
+
+    Returns
+    -------
+    Array
+        Four sizes, the axes, the velocities; one row.
+
+    """
     sizes = np.array([axis.size for axis in grid.axes], dtype=np.float64)
     return np.concatenate([sizes, *grid.axes, grid.velocity.ravel()])
 
 
 def pack(grid: Grid) -> str:
-    """Return a grid as text, to the bit: what a scene holds of its file."""
+    """
+    Return a grid as text, to the bit: what a scene holds of its file.
+
+    Parameters
+    ----------
+    grid
+        Axes [s], [m] and velocities [m/s].
+
+    Returns
+    -------
+    str
+        Of ``grid_numbers``, compressed.
+
+    """
     return base64.b64encode(zlib.compress(grid_numbers(grid).astype('<f8').tobytes())).decode()
 
 
 def unpack(text: str) -> Array:
     """
     Return the numbers of a packed grid.
+
+    Parameters
+    ----------
+    text
+        As ``pack`` returned it.
+
+    Returns
+    -------
+    Array
+        As ``grid_numbers`` returned it.
 
     Raises
     ------

@@ -17,7 +17,22 @@ _WATER_DENSITY = 100.0
 
 
 def streams_of(model: mujoco.MjModel, medium: str | None) -> tuple[str, ...]:
-    """Return which of wind and current a model has: both where a free surface parts two fluids."""
+    """
+    Return which of wind and current a model has.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    medium
+        ``air`` or ``water`` as the scene states it; None: by the density.
+
+    Returns
+    -------
+    tuple
+        Names; both where a free surface parts two fluids.
+
+    """
     if _surface(model) is not None:
         return ('wind', 'current')
     density = _number(model, 'density', model.opt.density)
@@ -46,7 +61,22 @@ class Fluids:
 
     @classmethod
     def of(cls, model: mujoco.MjModel, streams: tuple[str, ...]) -> 'Fluids':
-        """Return the fluids of a model, from its medium or its options; see ``streams_of``."""
+        """
+        Return the fluids of a model, from its medium or its options.
+
+        Parameters
+        ----------
+        model
+            The compiled model.
+        streams
+            As ``streams_of`` returned them.
+
+        Returns
+        -------
+        Fluids
+            Their surface and densities.
+
+        """
         density = _number(model, 'density', model.opt.density)
         surface = _surface(model)
         if surface is not None:

@@ -91,6 +91,17 @@ class Scene:
         """
         Read a scene by name, or by the path of a scene YAML file or an MJCF file.
 
+        Parameters
+        ----------
+        scene
+            Name of a scene, or path of a scene YAML file or an MJCF file; a ``Scene`` is returned
+            as it is.
+
+        Returns
+        -------
+        Scene
+            As its files state it.
+
         Raises
         ------
         ConfigError

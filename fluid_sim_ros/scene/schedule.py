@@ -22,6 +22,24 @@ class Schedule:
     Events in the order of their steps; ``next_step`` is all that the step loop looks at.
 
     The scene's own events return with every reset; those added at run time do not.
+
+    Parameters
+    ----------
+    changes
+        The scene's own events.
+    timestep
+        Of the scene [s].
+
+    Attributes
+    ----------
+    next_step
+        Tick at which the next event takes effect.
+
+    Raises
+    ------
+    ConfigError
+        If an event is not at a whole number of timesteps.
+
     """
 
     def __init__(self, changes: Sequence[ScheduledEvent], timestep: float) -> None:
@@ -34,7 +52,15 @@ class Schedule:
         self.rewind(0)
 
     def add(self, event: Event) -> None:
-        """Add an event of this run."""
+        """
+        Add an event of this run.
+
+        Parameters
+        ----------
+        event
+            What changes, and at which tick.
+
+        """
         self._added = (*self._added, event)
         self._pending = self._sorted([*self._pending, event])
         self._update()
@@ -44,13 +70,36 @@ class Schedule:
         return self._added
 
     def rewind(self, step: int, added: tuple[Event, ...] = ()) -> None:
-        """Make every event at or after ``step`` pending, with ``added`` as those of this run."""
+        """
+        Make every event at or after a tick pending.
+
+        Parameters
+        ----------
+        step
+            The tick.
+        added
+            Events of this run.
+
+        """
         self._added = added
         self._pending = self._sorted(e for e in (*self._scene, *added) if e.step >= step)
         self._update()
 
     def take_due(self, step: int) -> list[ScheduledEvent]:
-        """Return the changes that take effect at or before ``step`` and mark them done."""
+        """
+        Return the changes that take effect by now, and mark them done.
+
+        Parameters
+        ----------
+        step
+            The present tick.
+
+        Returns
+        -------
+        list
+            Of the changes, in order.
+
+        """
         due = []
         while self.next_step <= step:
             due.append(self._pending.pop(0).change)

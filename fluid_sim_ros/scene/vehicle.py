@@ -58,12 +58,42 @@ class Vehicle:
 
 
 def weight_in_air(model: mujoco.MjModel, body_id: int) -> float:
-    """Return the weight of a body and all below it, without buoyancy [N]."""
+    """
+    Return the weight of a body and all below it, without buoyancy [N].
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    body_id
+        Of the base.
+
+    """
     return float(model.body_subtreemass[body_id]) * GRAVITY
 
 
 def free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:
-    """Return a vehicle for every body with a free joint, under a name fit for topics."""
+    """
+    Return a vehicle for every body with a free joint, under a name fit for topics.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    path
+        Its file, for errors.
+
+    Returns
+    -------
+    dict
+        Name -> what its vehicle file would say.
+
+    Raises
+    ------
+    ModelError
+        If there is no such body, or its name is no topic name.
+
+    """
     found = {}
     for joint in range(model.njnt):
         if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
@@ -86,6 +116,22 @@ def free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:
 def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> Vehicle:
     """
     Return a vehicle with its names as ids of the model.
+
+    Parameters
+    ----------
+    name
+        Of the vehicle.
+    file
+        How its commands map onto the model.
+    model
+        The compiled model.
+    where
+        What an error begins with.
+
+    Returns
+    -------
+    Vehicle
+        With ids.
 
     Raises
     ------
@@ -150,7 +196,17 @@ def _actuators(model: mujoco.MjModel, root: int, transmission: int) -> list[str]
 
 
 def is_reaction_torque(model: mujoco.MjModel, actuator: int) -> bool:
-    """Return whether an actuator is the torque of a fluid_sim.thruster; its control is unread."""
+    """
+    Return whether an actuator is the torque of a fluid_sim.thruster; its control is unread.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    actuator
+        Its id.
+
+    """
     thruster = plugin_of_actuator(model, actuator, THRUSTER)
     return thruster is not None and not model.actuator_gear[actuator, :3].any()
 

@@ -63,7 +63,25 @@ class _UniqueKeys(yaml.SafeLoader):
 
 
 def read_yaml(path: Path) -> Any:
-    """Return the content of a YAML file; a ConfigError names the file and the line."""
+    """
+    Return the content of a YAML file.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    object
+        Mappings, lists, strings and numbers.
+
+    Raises
+    ------
+    ConfigError
+        For a file that cannot be read; names the file and the line.
+
+    """
     try:
         return yaml.load(path.read_text(encoding='utf-8'), Loader=_UniqueKeys)
     except FileNotFoundError:

@@ -49,7 +49,20 @@ class Channel(Strict):
         return self
 
     def variance(self, rate: float) -> float:
-        """Return the variance of a reading [u^2]: white noise and rounding, not the bias."""
+        """
+        Return the variance of a reading: white noise and rounding, not the bias.
+
+        Parameters
+        ----------
+        rate
+            Readings per second [Hz].
+
+        Returns
+        -------
+        float
+            [u^2].
+
+        """
         return self.density**2 * rate + self.deviation**2 + self.resolution**2 / 12.0
 
 
@@ -95,7 +108,15 @@ class SensorFile(Strict):
 
 
 def presets(kind: str) -> list[str]:
-    """Return the names of the presets of a kind of sensor, sorted."""
+    """
+    Return the names of the presets of a kind of sensor, sorted.
+
+    Parameters
+    ----------
+    kind
+        Such as ``imu``.
+
+    """
     return sorted(path.stem for path in (config_folder() / 'sensors' / kind).glob('*.yaml'))
 
 

@@ -41,7 +41,20 @@ class Waves(Strict):
         return self
 
     def keys(self, seed: int) -> dict[str, str]:
-        """Return the keys of fluid_sim.medium."""
+        """
+        Return the keys of fluid_sim.medium.
+
+        Parameters
+        ----------
+        seed
+            Of the simulation; for waves that state none.
+
+        Returns
+        -------
+        dict
+            Key -> value as MJCF has it.
+
+        """
         words: list[str | float] = [self.model, self.height, self.period]
         if self.gamma is not None:
             words.append(self.gamma)

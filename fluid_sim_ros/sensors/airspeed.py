@@ -8,8 +8,9 @@ from fluid_sim_ros.physics.environment.atmosphere import DENSITY
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import AirspeedFile
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import pressure_reading
-from fluid_sim_ros.sensors.sensor import Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Sensor
 
 
 class Airspeed(Sensor, file=AirspeedFile):
@@ -19,6 +20,11 @@ class Airspeed(Sensor, file=AirspeedFile):
     v is the component of the velocity relative to the air (incompressible flow, no error of the
     tube's place or of cross flow), rho the density that the scene's forces see. Without a reading
     while it is under water.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
 
     Attributes
     ----------

@@ -8,6 +8,7 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.sensors import DvlFile, RangefinderFile, SensorFile
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import (
     INFRARED,
     RANGE,
@@ -16,7 +17,7 @@ from fluid_sim_ros.sensors.reading import (
     Quantity,
     Reading,
 )
-from fluid_sim_ros.sensors.sensor import Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Sensor
 
 #: Rays step over the geoms of the vehicle's moving parts, at most this many.
 _OWN_PARTS = 64
@@ -60,6 +61,11 @@ class Rangefinder(_Looking, file=RangefinderFile):
 
     The vehicle's own geoms are looked through, as are water surfaces.
 
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
+
     Attributes
     ----------
     distance
@@ -102,6 +108,11 @@ class Dvl(_Looking, file=DvlFile):
 
     There is bottom lock, and so a reading, while three of the four beams find a geom whose height
     below the sensor is within the range of ``altitude``.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
 
     Attributes
     ----------

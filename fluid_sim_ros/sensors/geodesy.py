@@ -13,7 +13,22 @@ Triple = tuple[float, float, float]
 
 
 def geodetic_to_ecef(latitude: float, longitude: float, altitude: float) -> Triple:
-    """Return the Earth-centred coordinates [m] of latitude, longitude [rad] and height [m]."""
+    """
+    Return the Earth-centred coordinates of a place.
+
+    Parameters
+    ----------
+    latitude, longitude
+        [rad].
+    altitude
+        Above the ellipsoid [m].
+
+    Returns
+    -------
+    tuple
+        x, y, z [m].
+
+    """
     sine, cosine = math.sin(latitude), math.cos(latitude)
     radius = SEMI_MAJOR_AXIS / math.sqrt(1.0 - _E2 * sine * sine)
     return (
@@ -25,10 +40,21 @@ def geodetic_to_ecef(latitude: float, longitude: float, altitude: float) -> Trip
 
 def ecef_to_geodetic(x: float, y: float, z: float) -> Triple:
     """
-    Return latitude, longitude [rad] and height [m] of Earth-centred coordinates [m].
+    Return latitude, longitude and height of a place.
 
     The closed form of Vermeille, *J. Geodesy* 76 (2002) 451-454; valid everywhere but within 43 km
     of the Earth's centre.
+
+    Parameters
+    ----------
+    x, y, z
+        Earth-centred coordinates [m].
+
+    Returns
+    -------
+    tuple
+        Latitude and longitude [rad], height above the ellipsoid [m].
+
     """
     a, e4 = SEMI_MAJOR_AXIS, _E2 * _E2
     across = math.hypot(x, y)
@@ -52,6 +78,12 @@ class LocalFrame:
     The world's axes (east, north, up) at their home: a plane that touches the ellipsoid there.
 
     So a place far out at z = 0 lies above the ellipsoid, by d^2/(2 R): 0.08 m at 1 km.
+
+    Parameters
+    ----------
+    home
+        Where the world's origin lies.
+
     """
 
     def __init__(self, home: Home) -> None:
@@ -64,7 +96,20 @@ class LocalFrame:
         self._up = (cosine * ce, cosine * se, sine)
 
     def ecef(self, east: float, north: float, up: float) -> Triple:
-        """Return the Earth-centred coordinates [m] of a place in the world [m]."""
+        """
+        Return the Earth-centred coordinates of a place in the world.
+
+        Parameters
+        ----------
+        east, north, up
+            World axes, from the origin [m].
+
+        Returns
+        -------
+        tuple
+            x, y, z [m].
+
+        """
         x, y, z = (
             origin + east * e + north * n + up * u
             for origin, e, n, u in zip(
@@ -74,6 +119,19 @@ class LocalFrame:
         return x, y, z
 
     def geodetic(self, east: float, north: float, up: float) -> Triple:
-        """Return latitude, longitude [deg] and height [m] of a place in the world [m]."""
+        """
+        Return latitude, longitude and height of a place in the world.
+
+        Parameters
+        ----------
+        east, north, up
+            World axes, from the origin [m].
+
+        Returns
+        -------
+        tuple
+            Latitude and longitude [deg], height above the ellipsoid [m].
+
+        """
         latitude, longitude, height = ecef_to_geodetic(*self.ecef(east, north, up))
         return math.degrees(latitude), math.degrees(longitude), height

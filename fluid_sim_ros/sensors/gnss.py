@@ -6,13 +6,19 @@ from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import GnssFile
 from fluid_sim_ros.sensors.geodesy import LocalFrame
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import NAV_SAT_FIX, VELOCITY, Quantity, Reading
-from fluid_sim_ros.sensors.sensor import Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Sensor
 
 
 class Gnss(Sensor, file=GnssFile):
     """
     Position and velocity of the antenna; without a reading while it is under water.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
 
     Attributes
     ----------

@@ -3,8 +3,9 @@
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.schema.sensors import ImuFile
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import IMU, Quantity, Reading
-from fluid_sim_ros.sensors.sensor import Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Sensor
 
 
 class Imu(Sensor, file=ImuFile):
@@ -18,6 +19,11 @@ class Imu(Sensor, file=ImuFile):
 
     (Titterton and Weston, *Strapdown Inertial Navigation Technology*, 2nd ed. 2004, ch. 4). The
     world is taken for inertial: the Earth's rate, 7.3e-5 rad/s, is left out.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
 
     Attributes
     ----------

@@ -7,16 +7,27 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.scene import Home
 from fluid_sim_ros.schema.sensors import MagnetometerFile
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import MAGNETIC_FIELD, Quantity, Reading
-from fluid_sim_ros.sensors.sensor import Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Sensor
 
 
 def earth_field(home: Home) -> Array:
     """
-    Return the Earth's magnetic flux density at home [T], world axes (east, north, up).
+    Return the Earth's magnetic flux density at home.
 
     The World Magnetic Model (Chulliat et al., NOAA/NCEI and BGS) of the home's year, evaluated by
     pygeomag.
+
+    Parameters
+    ----------
+    home
+        Place and year.
+
+    Returns
+    -------
+    Array
+        [T], world axes (east, north, up), shape (3,).
 
     Raises
     ------
@@ -38,6 +49,11 @@ def earth_field(home: Home) -> Array:
 class Magnetometer(Sensor, file=MagnetometerFile):
     """
     The Earth's field in the axes of the mount; the vehicle's own magnetism is left out.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
 
     Attributes
     ----------

@@ -76,7 +76,22 @@ class Errors:
         self._bias = [np.zeros(self._width)]
 
     def apply(self, index: int, values: Array) -> int:
-        """Turn the true values of reading ``index`` into readings; return how many saturated."""
+        """
+        Turn the true values of a reading into readings.
+
+        Parameters
+        ----------
+        index
+            Number of the reading, from 0 on.
+        values
+            All axes, in the units of the channels, shape (n,); changed.
+
+        Returns
+        -------
+        int
+            How many were beyond their range.
+
+        """
         block, place = divmod(index, BLOCK)
         if block != self._block:
             self._draw(block)

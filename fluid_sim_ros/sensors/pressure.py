@@ -9,8 +9,9 @@ from fluid_sim_ros.physics.environment.atmosphere import (
 )
 from fluid_sim_ros.scene.media import Fluids
 from fluid_sim_ros.schema.sensors import BarometerFile, PressureFile
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import pressure_reading
-from fluid_sim_ros.sensors.sensor import Carrier, Sensor
+from fluid_sim_ros.sensors.sensor import Sensor
 
 
 class _Static(Sensor):
@@ -74,6 +75,11 @@ class Barometer(_Static, file=BarometerFile):
 class WaterPressure(_Static, file=PressureFile):
     """
     An absolute pressure sensor of a vehicle in water.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
 
     Attributes
     ----------

@@ -8,106 +8,16 @@ from typing import ClassVar
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.sensors import SensorFile
+from fluid_sim_ros.sensors.mount import Carrier, Mount
 from fluid_sim_ros.sensors.noise import Errors
 from fluid_sim_ros.sensors.reading import Reading
-from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps, whole_steps
 
 #: Linear and angular velocity lie side by side.
 _VELOCITIES = slice(nat.LINEAR_VELOCITY.start, nat.ANGULAR_VELOCITY.stop)
-
-
-@dataclass(frozen=True)
-class Carrier:
-    """
-    What sensors are mounted on.
-
-    Attributes
-    ----------
-    simulation, vehicle
-        Whose state they measure.
-    state
-        The vehicle's row of ``Simulation.observe``, which follows each call.
-    seed
-        Of their random numbers.
-    dither
-        Whether readings that autopilots watch may never stand still.
-
-    """
-
-    simulation: Simulation
-    vehicle: Vehicle
-    state: Array
-    seed: int
-    dither: bool
-
-
-@dataclass(frozen=True)
-class Mount:
-    """
-    Where a sensor sits on its base body.
-
-    Attributes
-    ----------
-    position_b
-        Place in base_link [m], shape (3,).
-    rotation_sb
-        Turns vectors of base_link into the sensor's axes, shape (3, 3); None: the same axes.
-    quat_bs_wxyz
-        The opposite turn, from the sensor's axes to base_link, shape (4,).
-
-    """
-
-    position_b: Array
-    rotation_sb: Array | None
-    quat_bs_wxyz: Array
-
-    @classmethod
-    def of_site(cls, carrier: Carrier, site: str | None, where: str) -> 'Mount':
-        """
-        Return the mount at a site of the base body; None is base_link itself.
-
-        Raises
-        ------
-        ConfigError
-            If the base body has no such site.
-
-        """
-        if site is None:
-            return cls(np.zeros(3), None, np.array([1.0, 0.0, 0.0, 0.0]))
-        model, body = carrier.simulation.model, carrier.vehicle.body_id
-        identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site)
-        if identity < 0 or model.site_bodyid[identity] != body:
-            sites = [model.site(i) for i in range(model.nsite) if model.site_bodyid[i] == body]
-            has = listed(s.name for s in sites if s.name)
-            raise ConfigError(f"{where}: site '{site}' is not on the base body; it has: {has}")
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, model.site_quat[identity])
-        rotation_bs = rotation.reshape(3, 3)
-        turned = not np.array_equal(rotation_bs, np.eye(3))
-        return cls(
-            model.site_pos[identity].copy(), rotation_bs.T.copy() if turned else None,
-            model.site_quat[identity].copy(),
-        )  # fmt: skip
-
-    def to_sensor(self, vectors_b: Array) -> Array:
-        """Return vectors of base_link, shape (..., 3), in the sensor's axes."""
-        if self.rotation_sb is None:
-            return vectors_b
-        turned: Array = vectors_b @ self.rotation_sb.T
-        return turned
-
-    def to_base(self, vectors_s: Array) -> Array:
-        """Return vectors in the sensor's axes, shape (..., 3), in those of base_link."""
-        if self.rotation_sb is None:
-            return vectors_s
-        turned: Array = vectors_s @ self.rotation_sb
-        return turned
 
 
 @dataclass(frozen=True)
@@ -231,6 +141,14 @@ class Sensor(ABC):
 
         The caller has observed the state at this step boundary (with forces if due and needed).
         A second call at the same step changes nothing; a step that goes back forgets all.
+
+        Parameters
+        ----------
+        step
+            The present tick.
+        time_ns
+            Its simulated time [ns].
+
         """
         if step == self.step:
             return
@@ -286,7 +204,15 @@ class Sensor(ABC):
         return SavedSensor(self.step, self.fresh, self.time_ns, self.values.copy(), pending)
 
     def load_state(self, saved: SavedSensor) -> None:
-        """Go on from a saved state; the simulation's was loaded before."""
+        """
+        Go on from a saved state; the simulation's was loaded before.
+
+        Parameters
+        ----------
+        saved
+            As ``save_state`` returned it.
+
+        """
         self.step, self.fresh, self.time_ns = saved.step, saved.fresh, saved.time_ns
         self.values[:] = saved.values
         self.under_way = deque((due, ns, row.copy()) for due, ns, row in saved.pending)

@@ -11,8 +11,9 @@ from fluid_sim_ros.sensors.beams import Dvl, Rangefinder
 from fluid_sim_ros.sensors.gnss import Gnss
 from fluid_sim_ros.sensors.imu import Imu
 from fluid_sim_ros.sensors.magnetometer import Magnetometer
+from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
-from fluid_sim_ros.sensors.sensor import CLASSES, Carrier, SavedSensor, Sensor
+from fluid_sim_ros.sensors.sensor import CLASSES, SavedSensor, Sensor
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
 
@@ -104,7 +105,17 @@ class SensorSuite:
         self.read(tick, simulation.time_ns)
 
     def read(self, tick: int, time_ns: int) -> None:
-        """Sample what is due, of a state that the caller has observed (with forces if needed)."""
+        """
+        Sample what is due, of a state that the caller has observed (with forces if needed).
+
+        Parameters
+        ----------
+        tick
+            The present one.
+        time_ns
+            Its simulated time [ns].
+
+        """
         for sensor in self.sensors:
             if tick % sensor.period == 0 or sensor.under_way or tick <= sensor.step:
                 sensor.update(tick, time_ns)
@@ -121,6 +132,14 @@ class SensorSuite:
         return {sensor.config.kind: sensor.save_state() for sensor in self.sensors}
 
     def load_state(self, saved: dict[str, SavedSensor]) -> None:
-        """Go on from a saved state of the same suite."""
+        """
+        Go on from a saved state of the same suite.
+
+        Parameters
+        ----------
+        saved
+            As ``save_state`` returned it.
+
+        """
         for sensor in self.sensors:
             sensor.load_state(saved[sensor.config.kind])

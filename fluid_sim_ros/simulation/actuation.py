@@ -17,7 +17,23 @@ WRENCH_FRAMES = ('base_link', 'map')
 
 def finite(what: str, values: Sequence[float] | Array, size: int, names: str = '') -> Array:
     """
-    Return values as an array of ``size`` finite numbers.
+    Return values as an array of finite numbers.
+
+    Parameters
+    ----------
+    what
+        Begin of an error.
+    values
+        Numbers of any unit.
+    size
+        How many they must be.
+    names
+        Of the numbers, for errors.
+
+    Returns
+    -------
+    Array
+        Shape (size,).
 
     Raises
     ------
@@ -76,7 +92,17 @@ class Controls:
 
     def write(self, values: Sequence[float] | Array) -> int:
         """
-        Write one command per actuator; return how many were beyond the limits.
+        Write one command per actuator.
+
+        Parameters
+        ----------
+        values
+            In the unit of the actuators, in command order, shape (n,).
+
+        Returns
+        -------
+        int
+            How many were beyond the limits.
 
         Raises
         ------
@@ -110,6 +136,20 @@ class CommandedWrench:
         """
         Return the wrench of a command.
 
+        Parameters
+        ----------
+        vehicle
+            Whose.
+        force, torque
+            [N], [N m], shape (3,).
+        frame
+            Axes of both, ``base_link`` or ``map``.
+
+        Returns
+        -------
+        CommandedWrench
+            Checked.
+
         Raises
         ------
         CommandError
@@ -139,6 +179,14 @@ class CommandedWrench:
 
         The generalized force of a free joint is the force at the body origin in world axes, and
         the torque in body axes.
+
+        Parameters
+        ----------
+        vehicle
+            Whose.
+        data
+            MuJoCo's; its ``qfrc_applied`` is changed.
+
         """
         quat_wb = data.qpos[vehicle.qpos_address + 3 : vehicle.qpos_address + 7]
         target = data.qfrc_applied[vehicle.dof_address : vehicle.dof_address + 6]

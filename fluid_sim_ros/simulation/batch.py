@@ -81,7 +81,15 @@ class BatchRuns:
         self.count = 0
 
     def divergence(self, run: int) -> DivergedError | None:
-        """Return the error that ended a run, or None for one that went through."""
+        """
+        Return the error that ended a run, or None for one that went through.
+
+        Parameters
+        ----------
+        run
+            Index of the run.
+
+        """
         if self._done[run] == self._steps:
             return None
         return divergence(self._model, *self._reports[run].tolist())

@@ -1,7 +1,6 @@
 """MuJoCo's model and data, stepped and observed through the plugin library's C functions."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -9,47 +8,9 @@ import numpy as np
 from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.simulation.energy import EnergyBalance
 
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-
-
-#: Energy that comes or goes by itself is worth a warning beyond this share per second [1/s].
-_NOTABLE_FEED = 1e-2
-
-
-@dataclass(frozen=True)
-class EnergyBalance:
-    """
-    What integration does to the energy of the motion, measured over one step in still fluid.
-
-    Attributes
-    ----------
-    kinetic
-        Of bodies and flow [J].
-    feed
-        Power that the integrator adds by itself [W]: change of the kinetic energy over a step,
-        less the work of the forces. First-order integrators feed a motion with gyroscopic or
-        convective added-mass forces, or (the implicit ones) starve it.
-    dissipation
-        Power that drag and damping take out [W].
-
-    """
-
-    kinetic: float
-    feed: float
-    dissipation: float
-
-    @property
-    def warning(self) -> str:
-        """One line when the integrator outweighs drag, else empty."""
-        quiet = abs(self.feed) <= max(self.dissipation, _NOTABLE_FEED * self.kinetic)
-        if quiet or self.kinetic <= 0:
-            return ''
-        verb, share = ('adds', self.feed) if self.feed > 0 else ('takes', -self.feed)
-        return (
-            f'the integrator {verb} {share / self.kinetic:.1%} of the kinetic energy per second '
-            'by itself, more than drag takes out; use RK4 or a smaller timestep'
-        )
 
 
 class Largest:
@@ -82,7 +43,15 @@ class Largest:
         self.values[:] = 0.0
 
     def look(self) -> Array:
-        """Look at the present state; return its rows, of which only the motion is new."""
+        """
+        Look at the present state.
+
+        Returns
+        -------
+        Array
+            Its rows, of which only the motion is new.
+
+        """
         return self._engine.look(*self._addresses)
 
 
@@ -125,7 +94,20 @@ class Engine:
         self._rows_address = self._rows.ctypes.data
 
     def step(self, n: int) -> int:
-        """Take up to n steps, each checked; return how many were good (see ``divergence``)."""
+        """
+        Take steps, each checked.
+
+        Parameters
+        ----------
+        n
+            How many at most.
+
+        Returns
+        -------
+        int
+            How many were good; see ``divergence`` for what ended them.
+
+        """
         model, data, report = self._step_addresses
         return self._step(model, data, n, report)
 
@@ -135,17 +117,45 @@ class Engine:
 
     def observe(self, forces: bool, wrenches: bool = True) -> Array:
         """
-        Return one row per base with the columns of ``plugins.native``.
+        Observe the vehicles.
 
         With ``forces`` accelerations and wrenches are evaluated at this very state, on a copy of
         it: the trajectory does not change. Without ``wrenches`` only accelerations are, and the
         columns of wrenches stay as they were. The array is overwritten by the next call.
+
+        Parameters
+        ----------
+        forces
+            Whether accelerations and wrenches are evaluated at this very state, on a copy of it:
+            the trajectory does not change.
+        wrenches
+            Whether wrenches are, besides accelerations; without, their columns stay as they were.
+
+        Returns
+        -------
+        Array
+            One row per base with the columns of ``plugins.native``, shape (n, columns);
+            overwritten by the next call.
+
         """
         self._observe(*self._observe_addresses, forces + (forces and wrenches), self._rows_address)
         return self._rows
 
     def look(self, start: int, largest: int) -> Array:
-        """Raise the largest values (see ``Largest``), given the addresses of both arrays."""
+        """
+        Raise the largest values; see ``Largest``.
+
+        Parameters
+        ----------
+        start, largest
+            Addresses of the two arrays.
+
+        Returns
+        -------
+        Array
+            Rows as ``observe`` returns them, of which only the motion is new.
+
+        """
         self._look(*self._observe_addresses, start, largest, self._rows_address)
         return self._rows
 
@@ -189,6 +199,11 @@ class Engine:
     def load(self, state: Array) -> None:
         """
         Go to a saved state.
+
+        Parameters
+        ----------
+        state
+            As ``save`` returned it, shape (n,).
 
         Raises
         ------
@@ -235,7 +250,24 @@ def keyframe_id(model: mujoco.MjModel, name: str) -> int:
 
 
 def divergence(model: mujoco.MjModel, time: float, dof: float) -> DivergedError:
-    """Return the error that describes a bad step, by its time [s] and the dof that went wrong."""
+    """
+    Return the error that describes a bad step.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    time
+        Of the step [s].
+    dof
+        Index of the velocity that went wrong.
+
+    Returns
+    -------
+    DivergedError
+        With time, body and a remedy.
+
+    """
     body = '(unknown)'
     if 0 <= dof < model.nv:
         body = model.body(model.dof_bodyid[int(dof)]).name or '(unnamed)'

@@ -23,6 +23,20 @@ def thrust_matrix(model: mujoco.MjModel, data: mujoco.MjData, vehicle: Vehicle) 
     reaction torque of a fluid_sim.thruster. Thrusters on moving links: as they stand in ``data``,
     whose positions must have been evaluated.
 
+    Parameters
+    ----------
+    model
+        The compiled model.
+    data
+        Its state.
+    vehicle
+        Whose thrusters.
+
+    Returns
+    -------
+    Array
+        Shape (6, n).
+
     Raises
     ------
     ConfigError
@@ -97,6 +111,13 @@ class WrenchAllocation:
 
     By the pseudo-inverse; beyond the limits the whole wrench is scaled down and keeps its
     direction (control.allocation).
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    vehicle
+        Whose thrusters.
 
     Raises
     ------

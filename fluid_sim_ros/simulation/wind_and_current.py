@@ -70,11 +70,32 @@ class WindAndCurrent:
         return MEDIUM if self._has_medium else OPTION
 
     def seed(self, seed: int) -> None:
-        """Start what is random anew, with a seed, at the present time."""
+        """
+        Start what is random anew at the present time.
+
+        Parameters
+        ----------
+        seed
+            Any whole number.
+
+        """
         native().seed_medium(*self._engine.addresses, float(seed % MOST_SEEDS))
 
     def check(self, name: str) -> None:
-        """Raise CommandError for a stream that the scene does not have."""
+        """
+        Refuse a stream that the scene does not have.
+
+        Parameters
+        ----------
+        name
+            ``wind`` or ``current``.
+
+        Raises
+        ------
+        CommandError
+            If the scene lacks it, with what it has.
+
+        """
         if name not in self.available:
             medium = 'water' if 'current' in self.available else 'air'
             raise CommandError(
@@ -82,13 +103,36 @@ class WindAndCurrent:
             )
 
     def set(self, name: str, velocity_w: Array) -> None:
-        """Command a velocity [m/s], world axes."""
+        """
+        Command a velocity.
+
+        Parameters
+        ----------
+        name
+            ``wind`` or ``current``.
+        velocity_w
+            [m/s], world axes, shape (3,).
+
+        Raises
+        ------
+        CommandError
+            If the scene lacks the stream.
+
+        """
         self.check(name)
         self._velocity[name] = velocity_w.copy()
         self._write()
 
     def enable(self, enabled: bool) -> None:
-        """Let the commanded velocities act, or still the fluids; the commands are kept."""
+        """
+        Let the commanded velocities act, or still the fluids; the commands are kept.
+
+        Parameters
+        ----------
+        enabled
+            Whether the commanded velocities act.
+
+        """
         self._enabled = enabled
         self._write()
 
@@ -99,7 +143,15 @@ class WindAndCurrent:
         )
 
     def load(self, saved: SavedStreams) -> None:
-        """Take up saved commands; the engine's state was loaded before."""
+        """
+        Take up saved commands; the engine's state was loaded before.
+
+        Parameters
+        ----------
+        saved
+            As ``save`` returned it.
+
+        """
         self._velocity = {'wind': saved.wind_w.copy(), 'current': saved.current_w.copy()}
         self._enabled = saved.enabled
         self._write()

@@ -6,8 +6,8 @@ import pytest
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.multirotor import MultirotorController
-from fluid_sim_ros.control.underwater import UnderwaterController
+from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
+from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController
 from fluid_sim_ros.errors import CommandError, ConfigError
 from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.simulation.plant import plant_of
@@ -137,13 +137,13 @@ def test_the_quadrotor_controller_holds_an_x500_with_lag_in_a_gust():
     loop = Loop('x500', 100.0, 'wind')
     errors = []
     for i in range(2000):
-        now, position, quat, velocity, omega = loop.state()
-        thrusts = controller.step(now, position, quat, velocity, omega, (0.0, 0.0, 1.5), 0.0)
+        state = loop.state()
+        thrusts = controller.step(state, PoseTarget((0.0, 0.0, 1.5)))
         loop.advance(thrusts, (6.0, 0.0, 0.0) if i >= 300 else (0.0, 0.0, 0.0))
-        errors.append(np.linalg.norm(np.subtract(position, (0, 0, 1.5))))
+        errors.append(np.linalg.norm(np.subtract(state.position_w, (0, 0, 1.5))))
     assert max(errors) < 1.5  # m, in the gust
     assert max(errors[-300:]) < 0.05
-    assert abs(rot.yaw_of(rot.from_quaternion(loop.state()[2]))) < 0.02
+    assert abs(rot.yaw_of(rot.from_quaternion(loop.state().quat_wb_wxyz))) < 0.02
 
 
 def test_the_rov_controller_holds_a_bluerov2_heavy_with_lag_in_a_current():
@@ -151,11 +151,9 @@ def test_the_rov_controller_holds_a_bluerov2_heavy_with_lag_in_a_current():
     controller = UnderwaterController(plant)
     loop = Loop('bluerov2_heavy', 50.0, 'current')
     for i in range(2000):
-        now, position, quat, velocity, omega = loop.state()
-        thrusts = controller.step(
-            now, position, quat, velocity, omega, 5.0, 0.5, place_w=(0.0, 0.0)
-        )
+        target = DepthTarget(5.0, 0.5, place_w=(0.0, 0.0))
+        thrusts = controller.step(loop.state(), target)
         loop.advance(thrusts, (0.3, 0.0, 0.0) if i >= 500 else (0.0, 0.0, 0.0))
-    _, position, quat, _, _ = loop.state()
-    assert position == pytest.approx([0, 0, -5], abs=0.05)
-    assert rot.yaw_of(rot.from_quaternion(quat)) == pytest.approx(0.5, abs=0.02)
+    state = loop.state()
+    assert state.position_w == pytest.approx([0, 0, -5], abs=0.05)
+    assert rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz)) == pytest.approx(0.5, abs=0.02)

@@ -7,9 +7,9 @@ import time
 from collections.abc import Iterator
 
 from fluid_sim_ros import Simulation
+from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
 from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
-    AutopilotPacing,
     Surroundings,
     open_bridge,
 )
