@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.cli import autopilot, lab, logs, sweep, vehicle
+from fluid_sim_ros.cli import advise, autopilot, chart, logs, stability, sweep, vehicle
 from fluid_sim_ros.cli.shared import Show, add_command
 from fluid_sim_ros.errors import ConfigError, DivergedError, FluidSimError, needed_for
 from fluid_sim_ros.output.json_file import write_json
@@ -109,7 +109,8 @@ def _build_parser() -> argparse.ArgumentParser:
     add_command(commands, 'scenes', 'list the scenes', _scenes, _show)
     vehicle.add_parser(commands, _show)
     logs.add_parsers(commands, _show)
-    lab.add_parsers(commands, _show)
+    for each in (chart, stability, advise):
+        each.add_parser(commands, _show)
     sweep.add_parser(commands, _show)
 
     commands.add_parser(

@@ -1,13 +1,16 @@
 """What the subcommands of ``fluid_sim`` share."""
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.errors import needed_for
 
 if TYPE_CHECKING:
     from rich.progress import Progress, ProgressColumn
+
+    from fluid_sim_ros.lab.progress import Report
 
 #: Shows a table, or writes a result as JSON: (path or None, table, result).
 Show = Callable[[str | None, Any, object], None]
@@ -73,3 +76,25 @@ def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
         TextColumn('{task.description}'), BarColumn(), *columns, TimeRemainingColumn(),
         console=console, transient=True, disable=not console.is_terminal,
     )  # fmt: skip
+
+
+@contextmanager
+def progress_of_parts() -> Iterator['Report']:
+    """
+    Give a function that shows how far a measurement is, on standard error.
+
+    Returns
+    -------
+    context manager
+        Gives a function that takes what is done, how many, and of how many.
+
+    """
+    with progress_bar('{task.completed}/{task.total}') as bar:
+        tasks: dict[str, Any] = {}
+
+        def report(what: str, done: int, total: int) -> None:
+            if what not in tasks:
+                tasks[what] = bar.add_task(what, total=total)
+            bar.update(tasks[what], completed=done, visible=done < total)
+
+        yield report

@@ -7,6 +7,8 @@ import pytest
 
 from fluid_sim_ros import plugins
 from fluid_sim_ros.cli import doctor
+from fluid_sim_ros.cli.doctor.optional import EXTRAS
+from test.support.egg_info import sections
 
 BASE = ('Python', 'MuJoCo', 'plugin library', 'scenes')
 
@@ -25,7 +27,7 @@ def run_doctor(**environment):
 def test_what_is_installed_for_the_tests_works():
     code, rows = run_doctor(ROS_DOMAIN_ID='7')
     assert code == 0
-    for name in (*BASE, 'ROS 2', 'ROS messages', 'ROS_DOMAIN_ID', 'extra charts', 'tests'):
+    for name in (*BASE, 'ROS 2', 'ROS messages', 'ROS_DOMAIN_ID', 'extra charts', 'extra test'):
         assert rows[name]['state'] == 'ok', rows[name]
     assert all(row['remedy'] for row in rows.values() if row['state'] != 'ok')
 
@@ -68,6 +70,16 @@ def test_a_missing_library_is_broken(monkeypatch, tmp_path):
     assert rows['plugin library'].state == 'broken'
     assert 'is not built' in rows['plugin library'].found
     assert not doctor.works(list(rows.values()))
+
+
+def test_doctor_lists_every_optional_part_with_what_it_brings_and_what_to_type(egg_info):
+    declared = set(sections((egg_info / 'requires.txt').read_text())) - {''}
+    assert set(EXTRAS) == declared
+    _, rows = run_doctor()
+    for name, part in EXTRAS.items():
+        row = rows['ROS 2' if name == 'ros' else f'extra {name}']
+        assert row['state'] == 'ok' or f'[{name}]' in row['remedy']
+        assert name == 'ros' or part.brings in row['found']
 
 
 def test_the_table_shows_every_row():

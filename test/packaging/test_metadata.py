@@ -1,8 +1,5 @@
 import ast
-import os
 import re
-import subprocess
-import sys
 import tomllib
 from importlib.metadata import EntryPoint
 from pathlib import Path
@@ -12,38 +9,17 @@ import pytest
 
 import fluid_sim_ros
 from fluid_sim_ros.ros import parameters
+from test.support.egg_info import sections
 
 ROOT = Path(__file__).resolve().parents[2]
 # Message packages and ROS libraries as package.xml names them.
+MESSAGE_TYPE = re.compile(r'^(\w+)/msg/\w+$')
 ROS_PACKAGE = re.compile(r'^(rclpy|launch|launch_ros|std_srvs|\w+_msgs|\w+_interfaces)$')
 
 
 @pytest.fixture(scope='module')
 def package_xml():
     return ElementTree.parse(ROOT / 'package.xml').getroot()
-
-
-@pytest.fixture(scope='module')
-def egg_info(tmp_path_factory):
-    """Return the metadata that setup.py yields, as pip and colcon read it."""
-    folder = tmp_path_factory.mktemp('metadata')
-    subprocess.run(
-        [sys.executable, 'setup.py', '-q', 'egg_info', '--egg-base', str(folder)],
-        cwd=ROOT, check=True, capture_output=True, env={**os.environ, 'PYTHONPATH': ''},
-    )  # fmt: skip
-    return folder / 'fluid_sim_ros.egg-info'
-
-
-def sections(text):
-    """Split an egg-info file into its [sections]; lines before the first are under ''."""
-    found, name = {'': []}, ''
-    for line in filter(None, text.splitlines()):
-        if line.startswith('['):
-            name = line.strip('[]')
-            found[name] = []
-        else:
-            found[name].append(line)
-    return found
 
 
 def test_package_xml_is_what_colcon_needs_for_ament_python(package_xml):
@@ -101,6 +77,8 @@ def test_package_xml_names_every_ros_package_that_is_imported(package_xml):
             modules = [node.module or ''] if isinstance(node, ast.ImportFrom) else []
             if isinstance(node, ast.Import):
                 modules = [alias.name for alias in node.names]
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                modules = MESSAGE_TYPE.findall(node.value)  # looked up by name when it is wanted
             used |= {module.split('.')[0] for module in modules}
     used = {name for name in used if ROS_PACKAGE.match(name)}
 
