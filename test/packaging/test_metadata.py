@@ -80,6 +80,9 @@ def test_package_xml_names_every_ros_package_that_is_imported(package_xml):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 modules = MESSAGE_TYPE.findall(node.value)  # looked up by name when it is wanted
             used |= {module.split('.')[0] for module in modules}
+            # messages are found by the name of their type: 'nav_msgs/msg/Odometry'
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                used |= set(re.findall(r'^(\w+)/msg/\w+$', node.value))
     used = {name for name in used if ROS_PACKAGE.match(name)}
 
     assert used >= {'rclpy', 'nav_msgs'}
