@@ -1,7 +1,19 @@
-"""Errors that the package raises; each message is one line that says what is allowed."""
+"""
+Errors that the package raises; each message is one line that says what is allowed.
+
+Text of files, logs and networks goes into them, and onto a terminal, by ``printable``.
+"""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from datetime import date
+from itertools import islice
+from reprlib import Repr
+from typing import Any
+
+#: Longest piece of foreign text in a line for people, and longest line [characters]; most names
+#: of a list.
+MOST_TEXT, MOST_LINE, MOST_NAMES = 200, 2000, 50
 
 
 class FluidSimError(Exception):
@@ -14,6 +26,10 @@ class ConfigError(FluidSimError):
 
 class ModelError(FluidSimError):
     """An MJCF model does not load or does not fit the scene that names it."""
+
+
+class LimitError(ConfigError):
+    """A file asks for more than a limit allows; the message says which, and how to raise it."""
 
 
 class CommandError(FluidSimError):
@@ -49,6 +65,54 @@ class DivergedError(FluidSimError):
         self.body = body
 
 
+def printable(text: object, most: int = MOST_TEXT) -> str:
+    r"""
+    Return text of others as it may be shown: on one line, without control characters, cut.
+
+    What is not printable (line ends, escape sequences, marks that turn the direction of the text,
+    halves of surrogate pairs) becomes an escape such as ``\x1b``.
+
+    Parameters
+    ----------
+    text
+        Of a file, a log or a network; no text: its ``repr``, cut at each level.
+    most
+        Longest text [characters]; what is cut off is counted.
+
+    """
+    words = text if isinstance(text, str) else _Cut().repr(text)
+    rest = len(words) - most
+    if rest > 0:
+        words = words[:most]
+    if not words.isprintable():
+        words = ''.join(c if c.isprintable() else _escaped(c) for c in words)
+    return f'{words}... ({rest} more characters)' if rest > 0 else words
+
+
+def _escaped(character: str) -> str:
+    return character.encode('unicode_escape').decode('ascii')
+
+
+class _Cut(Repr):
+    """A ``repr`` that looks at a few members and levels only: its cost does not grow."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel, self.maxstring, self.maxother = 3, MOST_TEXT, MOST_TEXT
+
+    def repr_int(self, x: int, level: int) -> str:
+        digits = x.bit_length() // 3.33
+        return f'a number of about {digits:.0f} digits' if digits > self.maxlong else repr(x)
+
+    def repr_instance(self, x: Any, level: int) -> str:
+        """Return the text of what is no container, or the name of its type."""
+        if isinstance(x, bytes | bytearray):
+            return repr(bytes(x[:MOST_TEXT]))
+        if isinstance(x, float | complex | bool | date | None):
+            return repr(x)
+        return f'<{type(x).__name__}>'
+
+
 def listed(names: Iterable[str]) -> str:
     """
     Return names as the tail of an error message: ``a, b, c`` or ``(none)``.
@@ -56,10 +120,13 @@ def listed(names: Iterable[str]) -> str:
     Parameters
     ----------
     names
-        What is allowed or exists, in the order of the message.
+        What is allowed or exists, in the order of the message; the first 50 are shown.
 
     """
-    return ', '.join(names) or '(none)'
+    remaining = iter(names)
+    first = [printable(name, 100) for name in islice(remaining, MOST_NAMES)]
+    rest = sum(1 for _ in remaining)
+    return ', '.join([*first, *([f'and {rest} more'] if rest else [])]) or '(none)'
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from fluid_sim_ros.errors import ConfigError
 
@@ -20,7 +21,12 @@ def exact(value: float | Fraction) -> Fraction:
         A number as a person wrote it, any unit.
 
     """
-    return value if isinstance(value, Fraction) else Fraction(repr(float(value)))
+    return value if isinstance(value, Fraction) else _exact(float(value))
+
+
+@lru_cache(maxsize=64)
+def _exact(value: float) -> Fraction:
+    return Fraction(repr(value))
 
 
 def whole_steps(seconds: float, timestep: float, what: str) -> int:

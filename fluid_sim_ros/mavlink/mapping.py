@@ -12,7 +12,8 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.t200 import t200_table
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.scene.vehicle import Vehicle
-from fluid_sim_ros.schema.base import Number, Positive, Strict, parse, read_yaml
+from fluid_sim_ros.schema.base import Number, Positive, Strict, parse
+from fluid_sim_ros.schema.yaml_file import read_yaml
 
 #: Outputs of a HIL_ACTUATOR_CONTROLS and of the longest servo packet.
 OUTPUTS = {'px4': 16, 'ardupilot': 32}

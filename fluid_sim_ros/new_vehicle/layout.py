@@ -9,7 +9,8 @@ from pydantic import Field
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.schema.base import Name, NotNegative, Positive, Strict, Vector, parse, read_yaml
+from fluid_sim_ros.schema.base import Name, NotNegative, Positive, Strict, Vector, parse
+from fluid_sim_ros.schema.yaml_file import read_yaml
 
 Medium = Literal['air', 'water']
 

@@ -17,6 +17,7 @@ from fluid_sim_ros.scene.schedule import Schedule, check_schedule
 from fluid_sim_ros.scene.vehicle import Vehicle, free_bodies, resolve
 from fluid_sim_ros.scene.weather import add_waves, apply_weather
 from fluid_sim_ros.schema.advised import Advised
+from fluid_sim_ros.schema.limits import check_limit
 from fluid_sim_ros.schema.scene import Gait, Home, ScheduledEvent, VehicleFile
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.schema.waves import Waves
@@ -173,6 +174,7 @@ class Scene:
             apply_weather(spec, self.wind, self.current, seed, self.name)
         model = compile_spec(spec, self.model_path)
         vehicles = self._vehicles(model)
+        check_limit('scene_events', len(self.schedule), f'{self.name}: events of the schedule')
         schedule = Schedule(self.schedule, model.opt.timestep)
         check_schedule(self.schedule, vehicles, self.name)
         gaits = Gaits(self.gait, vehicles, model.opt.timestep, self.name)

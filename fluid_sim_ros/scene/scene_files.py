@@ -6,8 +6,9 @@ from typing import Any
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene.weather_files import with_files
-from fluid_sim_ros.schema.base import parse, read_yaml
+from fluid_sim_ros.schema.base import parse
 from fluid_sim_ros.schema.scene import SceneFile, VehicleFile
+from fluid_sim_ros.schema.yaml_file import read_yaml
 
 
 def scene_names() -> list[str]:

@@ -1,10 +1,12 @@
 """The scene's timed events (wind, current, thrust, disturbances) on the integer step clock."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from heapq import heappop, heappush
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import CommandError, ConfigError, listed
 from fluid_sim_ros.scene.vehicle import Vehicle
+from fluid_sim_ros.schema.limits import beyond, limit
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.step_clock import NEVER, whole_steps
 
@@ -46,9 +48,10 @@ class Schedule:
         self._scene = tuple(
             Event(whole_steps(c.at, timestep, f'schedule at {c.at:g}'), c) for c in changes
         )
+        self._pending: list[tuple[int, int, Event]] = []  # a heap: step, order of coming, event
+        self._added: dict[int, Event] = {}  # of this run and still to come, by order of coming
+        self._coming = 0
         self.next_step = NEVER
-        self._added: tuple[Event, ...] = ()
-        self._pending: list[Event] = []
         self.rewind(0)
 
     def add(self, event: Event) -> None:
@@ -58,16 +61,24 @@ class Schedule:
         Parameters
         ----------
         event
-            What changes, and at which tick.
+            The event; its step is not past.
+
+        Raises
+        ------
+        CommandError
+            If as many as the limit ``scene_events`` are pending.
 
         """
-        self._added = (*self._added, event)
-        self._pending = self._sorted([*self._pending, event])
-        self._update()
+        if len(self._added) >= (most := limit('scene_events')):
+            raise CommandError(
+                str(beyond('scene_events', most, f'an event more than {most} pending ones'))
+            )
+        self._added[self._coming] = event
+        self._push(event)
 
     def added(self) -> tuple[Event, ...]:
-        """Return what was added in this run."""
-        return self._added
+        """Return what was added in this run and is still to come."""
+        return tuple(self._added.values())
 
     def rewind(self, step: int, added: tuple[Event, ...] = ()) -> None:
         """
@@ -76,13 +87,20 @@ class Schedule:
         Parameters
         ----------
         step
-            The tick.
+            The present one.
         added
-            Events of this run.
+            Those of this run.
 
         """
-        self._added = added
-        self._pending = self._sorted(e for e in (*self._scene, *added) if e.step >= step)
+        self._pending, self._coming = [], 0
+        for event in self._scene:
+            if event.step >= step:
+                self._push(event)
+        self._added = {}
+        for event in added:
+            if event.step >= step:
+                self._added[self._coming] = event
+                self._push(event)
         self._update()
 
     def take_due(self, step: int) -> list[ScheduledEvent]:
@@ -102,16 +120,19 @@ class Schedule:
         """
         due = []
         while self.next_step <= step:
-            due.append(self._pending.pop(0).change)
+            _, order, event = heappop(self._pending)
+            self._added.pop(order, None)
+            due.append(event.change)
             self._update()
         return due
 
-    def _update(self) -> None:
-        self.next_step = self._pending[0].step if self._pending else NEVER
+    def _push(self, event: Event) -> None:
+        heappush(self._pending, (event.step, self._coming, event))
+        self._coming += 1
+        self._update()
 
-    @staticmethod
-    def _sorted(events: Iterable[Event]) -> list[Event]:
-        return sorted(events, key=lambda event: event.step)
+    def _update(self) -> None:
+        self.next_step = self._pending[0][0] if self._pending else NEVER
 
 
 def check_schedule(

@@ -1,7 +1,8 @@
 """
-Our YAML files as strict schemas: number types, reading, and one-line errors.
+Our YAML files as strict schemas: number types, and one-line errors.
 
-What the files hold stands in ``scene``, ``sensors`` and ``weather`` beside this module.
+``yaml_file`` reads them. What they hold stands in ``scene``, ``sensors`` and ``weather`` beside
+this module.
 """
 
 import math
@@ -10,10 +11,9 @@ from numbers import Real
 from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_args
 
-import yaml
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, listed, printable
 
 Schema = TypeVar('Schema', bound='Strict')
 
@@ -23,11 +23,13 @@ NAME_PATTERN = r'^[A-Za-z][A-Za-z0-9_]*$'
 
 def _number(value: Any) -> float:
     """Accept what YAML 1.1 and people write for a finite number (also ``1e-3``, a YAML string)."""
+    if type(value) is float and math.isfinite(value):  # nearly all: a check less for long lists
+        return value
     if isinstance(value, bool) or not isinstance(value, Real | str):
         raise ValueError('must be a number')
     try:
         number = float(value)
-    except ValueError:
+    except (ValueError, OverflowError):
         raise ValueError('must be a number') from None
     if not math.isfinite(number):
         raise ValueError('must be finite')
@@ -47,51 +49,6 @@ class Strict(BaseModel):
     model_config = ConfigDict(extra='forbid', frozen=True)
 
 
-class _UniqueKeys(yaml.SafeLoader):
-    """A safe loader that refuses a key given twice (plain YAML keeps the last, silently)."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        seen = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if key in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f'key {key!r} stands twice', key_node.start_mark
-                )
-            seen.add(key)
-        return super().construct_mapping(node, deep)
-
-
-def read_yaml(path: Path) -> Any:
-    """
-    Return the content of a YAML file.
-
-    Parameters
-    ----------
-    path
-        The file.
-
-    Returns
-    -------
-    object
-        Mappings, lists, strings and numbers.
-
-    Raises
-    ------
-    ConfigError
-        For a file that cannot be read; names the file and the line.
-
-    """
-    try:
-        return yaml.load(path.read_text(encoding='utf-8'), Loader=_UniqueKeys)
-    except FileNotFoundError:
-        raise ConfigError(f'{path}: no such file') from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(f'{path}: {error}') from None
-    except yaml.YAMLError as error:
-        raise ConfigError(f'{path}: not valid YAML: {" ".join(str(error).split())}') from None
-
-
 def parse(schema: type[Schema], content: Any, path: Path) -> Schema:
     """
     Validate what a file says.
@@ -101,7 +58,7 @@ def parse(schema: type[Schema], content: Any, path: Path) -> Schema:
     schema
         What it may say.
     content
-        What ``read_yaml`` found.
+        What ``yaml_file.read_yaml`` found.
     path
         The file, for errors.
 
@@ -162,23 +119,26 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
     fault = max(error.errors(include_url=False), key=lambda fault: len(fault['loc']))
     place, owner = _place(schema, fault['loc'])
     kind, message = fault['type'], fault['msg'].removeprefix('Value error, ')
-    message = message.replace('Input should be', 'must be')
-    key = named.format(place)
+    message = printable(message.replace('Input should be', 'must be'), 500)
+    key = named.format(printable(place))
     if kind == 'extra_forbidden':
         return f'unknown {key}; allowed: {listed(owner.model_fields)}'
     if kind == 'missing':
         return f'missing {key}'
     if kind == 'union_tag_not_found':
-        return f'missing {named.format(f"{place}.model")}'
+        return f'missing {named.format(printable(f"{place}.model"))}'
     if kind == 'union_tag_invalid':
         known = fault['ctx']['expected_tags'].replace("'", '')
-        key = named.format(f'{place}.model')
-        return f"{key}: '{fault['ctx']['tag']}' is not known; allowed: {known}"
+        key = named.format(printable(f'{place}.model'))
+        return f"{key}: '{printable(fault['ctx']['tag'])}' is not known; allowed: {known}"
     if isinstance(fault['input'], dict):  # a rule between keys: the whole mapping tells nothing
         return f'{key}: {message}' if place else message
-    if isinstance(fault['input'], str) and repr(fault['input']) in message:
-        return f'{key}: {message}'
-    return f'{key}: {message} (got {fault["input"]!r})'
+    got = printable(fault['input'])
+    if isinstance(fault['input'], str):
+        got = repr(got)
+        if got in message:
+            return f'{key}: {message}'
+    return f'{key}: {message} (got {got})'
 
 
 def _place(schema: type[BaseModel], location: tuple[Any, ...]) -> tuple[str, type[BaseModel]]:

@@ -10,7 +10,8 @@ from pydantic import Field, model_validator
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.schema.base import NotNegative, Number, Positive, Strict, Vector, read_yaml
+from fluid_sim_ros.schema.base import NotNegative, Number, Positive, Strict, Vector
+from fluid_sim_ros.schema.yaml_file import read_yaml
 
 Limits = Annotated[list[Number], Field(min_length=2, max_length=2)]
 

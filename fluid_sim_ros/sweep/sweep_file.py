@@ -18,9 +18,9 @@ from fluid_sim_ros.schema.base import (
     Strict,
     Vector,
     parse,
-    read_yaml,
 )
 from fluid_sim_ros.schema.settings import Fluid, Integrator, RunSettings
+from fluid_sim_ros.schema.yaml_file import read_yaml
 
 #: A setting that a run takes: a number, or a name (of an integrator or fluid rung).
 Value = float | int | str

@@ -1,0 +1,145 @@
+"""
+What a file may ask for at most: sizes, depths, counts and ratios, each with a name.
+
+They stop files that are made to exhaust memory or time; honest files stay far below. Who has a
+larger one raises a limit with the environment variable ``FLUID_SIM_LIMITS``, such as
+``FLUID_SIM_LIMITS=scene_events=1e6,yaml_bytes=1e9``.
+"""
+
+import os
+from dataclasses import dataclass
+from functools import cache
+
+from fluid_sim_ros.errors import ConfigError, LimitError, listed, printable
+
+VARIABLE = 'FLUID_SIM_LIMITS'
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One limit: its number, and what it bounds."""
+
+    most: int
+    what: str
+
+
+LIMITS = {
+    'yaml_bytes': Limit(16 << 20, 'size of a YAML file [bytes]'),
+    'yaml_depth': Limit(40, 'levels of a YAML file'),
+    'yaml_values': Limit(1_000_000, 'values of a YAML file, aliases written out'),
+    'scene_events': Limit(100_000, 'events of a scene, or pending winds and currents'),
+    'csv_bytes': Limit(256 << 20, 'size of a CSV file [bytes]'),
+    'grid_bytes': Limit(1 << 30, 'numbers of a grid of wind or current [bytes]'),
+    'expansion': Limit(100, 'times that compressed data may grow, beyond 32 MiB'),
+    'log_chunk_bytes': Limit(64 << 20, 'size of a chunk of a log, decompressed [bytes]'),
+    'log_depth': Limit(20, 'levels of a message, or of a value in it'),
+    'log_columns': Limit(10_000, 'fields of a topic as a table'),
+    'log_definition_bytes': Limit(1 << 20, 'size of a message definition [bytes]'),
+    'log_steps': Limit(200_000, 'steps of a repeated flight, beyond 1000 for each message'),
+    'log_attachment_bytes': Limit(1 << 30, 'files of a model in a log together [bytes]'),
+    'model_elements': Limit(100_000, 'elements of the model in a log, replicated ones counted'),
+    'model_bytes': Limit(256 << 20, 'memory that the model in a log asks for [bytes]'),
+    'film_pictures': Limit(100_000, 'pictures of a film'),
+}
+#: Compressed data may grow to this much, whatever its size [bytes].
+_EXPANSION_BASE = 32 << 20
+
+
+def limit(name: str) -> int:
+    """
+    Return the number of a limit, as the user set it.
+
+    Parameters
+    ----------
+    name
+        One of ``LIMITS``.
+
+    Returns
+    -------
+    int
+        In the unit that ``LIMITS`` states.
+
+    Raises
+    ------
+    ConfigError
+        If the environment variable does not read ``NAME=NUMBER,...``.
+
+    """
+    return _stated(os.environ.get(VARIABLE, '')).get(name, LIMITS[name].most)
+
+
+@cache
+def _stated(text: str) -> dict[str, int]:
+    found = {}
+    for pair in filter(None, text.replace(' ', '').split(',')):
+        name, _, number = pair.partition('=')
+        if name not in LIMITS:
+            raise ConfigError(
+                f"{VARIABLE}: '{printable(name)}' is no limit; limits: {listed(LIMITS)}"
+            )
+        try:
+            found[name] = int(float(number))
+        except (ValueError, OverflowError):
+            raise ConfigError(f'{VARIABLE}: {printable(pair)}: needs {name}=NUMBER') from None
+    return found
+
+
+def check_limit(name: str, value: float, what: str) -> None:
+    """
+    Refuse what is beyond a limit.
+
+    Parameters
+    ----------
+    name
+        One of ``LIMITS``.
+    value
+        What a file asks for, in the unit of the limit.
+    what
+        What has it; the message begins with it.
+
+    Raises
+    ------
+    LimitError
+        If it is beyond.
+
+    """
+    if value > (most := limit(name)):
+        raise beyond(name, most, f'{what}: {value:.6g}')
+
+
+def beyond(name: str, most: int, what: str) -> LimitError:
+    """
+    Return the error of what is beyond a limit.
+
+    Parameters
+    ----------
+    name
+        One of ``LIMITS``.
+    most
+        What it allows, in its unit.
+    what
+        What has how much.
+
+    """
+    return LimitError(
+        f'{what} is beyond the limit {name} = {most} ({LIMITS[name].what}); '
+        f'{VARIABLE}={name}=NUMBER raises it'
+    )
+
+
+def expanded_size(compressed: int) -> int:
+    """
+    Return how large compressed data may become.
+
+    Parameters
+    ----------
+    compressed
+        Its size [bytes].
+
+    Returns
+    -------
+    int
+        [bytes].
+
+    """
+    return _EXPANSION_BASE + limit('expansion') * compressed
