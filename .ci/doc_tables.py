@@ -15,7 +15,7 @@ from typing import Any
 
 import bench_page  # a script beside this one
 
-from fluid_sim_ros.ros import parameters
+from fluid_sim_ros.ros.parameters import simulator as parameters
 from fluid_sim_ros.scene import Scene, scene_names
 from test.packaging.layers import LEAVES, ORDER
 

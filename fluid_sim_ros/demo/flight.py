@@ -15,7 +15,7 @@ from fluid_sim_ros.demo.flight_log import TOPICS
 from fluid_sim_ros.demo.listener import Listener
 from fluid_sim_ros.demo.summary import SCENE, VEHICLE, WAYPOINTS
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.ros.states import read_odometry
+from fluid_sim_ros.ros.controllers.states import read_odometry
 
 #: Domains to choose from: above those that people and tests use, and with UDP ports below the
 #: ephemeral ports of Linux.
@@ -38,7 +38,19 @@ def fly(out: Path, duration: float, log: Path | None = None) -> Heard:
     """
     Run simulator and controller to the end and return what was heard on the way.
 
-    The simulator records to ``log``; what the processes write goes to ``out``/<name>.log.
+    Parameters
+    ----------
+    out
+        Folder for what the processes write: <name>.log.
+    duration
+        Simulated time [s].
+    log
+        File that the simulator records to, or None.
+
+    Returns
+    -------
+    Heard
+        The odometry that arrived here, and the wall time that the flight took.
 
     Raises
     ------

@@ -40,6 +40,16 @@ def read_recording(path: Path) -> Recording:
     """
     Return what the demo's pictures and numbers are made of.
 
+    Parameters
+    ----------
+    path
+        The log of the flight.
+
+    Returns
+    -------
+    Recording
+        Rows by time.
+
     Raises
     ------
     ConfigError
@@ -70,6 +80,16 @@ def check_again(path: Path) -> dict[str, Any]:
     """
     Fly a log's commands again and return the numbers of the comparison.
 
+    Parameters
+    ----------
+    path
+        The log of the flight.
+
+    Returns
+    -------
+    dict
+        Size of the log, and how many commands and states were compared.
+
     Raises
     ------
     ConfigError
@@ -90,7 +110,20 @@ def check_again(path: Path) -> dict[str, Any]:
 
 
 def still(path: Path) -> tuple[Path, str]:
-    """Render in a process of its own, as drivers may end it; return the file and what failed."""
+    """
+    Render a picture in a process of its own, as drivers may end it.
+
+    Parameters
+    ----------
+    path
+        The log of the flight.
+
+    Returns
+    -------
+    path, fault
+        File of the picture, and why there is none, or empty.
+
+    """
     out = path.with_name('still.png')
     out.unlink(missing_ok=True)
     command = [

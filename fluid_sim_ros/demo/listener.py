@@ -51,10 +51,21 @@ class Listener:
 
     def take(self, pause: float) -> bool:
         """
-        Sleep for ``pause`` [s], then take what has arrived; True when something had.
+        Sleep, then take what has arrived.
 
         The messages of the pause wait in the middleware: a wake-up for each would take
         processor time from those who are listened to.
+
+        Parameters
+        ----------
+        pause
+            How long to sleep [s].
+
+        Returns
+        -------
+        bool
+            Whether something had arrived.
+
         """
         time.sleep(pause)
         before = len(self.messages)

@@ -16,7 +16,25 @@ from fluid_sim_ros.output.json_file import write_json
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the demo; returns the exit code."""
+    """
+    Run the demo.
+
+    Parameters
+    ----------
+    argv
+        Arguments of the command; None means those of the process.
+
+    Returns
+    -------
+    int
+        Exit code.
+
+    Raises
+    ------
+    FluidSimError
+        If an option is wrong, or a process of the demo fails.
+
+    """
     options = _parser().parse_args(argv)
     if not (math.isfinite(options.duration) and options.duration > 0):
         raise FluidSimError(f'--duration {options.duration:g}: must be finite and above 0 s')

@@ -27,7 +27,24 @@ _BODY = ('forward x', 'left y', 'up z')
 
 
 def trajectory(recording: Recording, targets: Array, path: Path) -> Path:
-    """Draw path, position and error against time; return the file's path."""
+    """
+    Draw path, position and error against time.
+
+    Parameters
+    ----------
+    recording
+        The flight.
+    targets
+        Where the vehicle should be at each state [m], world axes, shape (n, 3).
+    path
+        File of the picture.
+
+    Returns
+    -------
+    Path
+        That file.
+
+    """
     times, position = recording.odometry[:, 0], recording.odometry[:, 1:4]
     with mpl.rc_context(_STYLE):
         figure = plt.figure(figsize=(12, 7), layout='constrained')
@@ -55,7 +72,22 @@ def trajectory(recording: Recording, targets: Array, path: Path) -> Path:
 
 
 def wrench(recording: Recording, path: Path) -> Path:
-    """Draw wind, fluid force and torque, and rotor thrust against time; return the file's path."""
+    """
+    Draw wind, fluid force and torque, and rotor thrust against time.
+
+    Parameters
+    ----------
+    recording
+        The flight.
+    path
+        File of the picture.
+
+    Returns
+    -------
+    Path
+        That file.
+
+    """
     times = recording.fluid[:, 0]
     with mpl.rc_context(_STYLE):
         figure, rows = plt.subplots(4, 1, figsize=(10, 9), sharex=True, layout='constrained')

@@ -55,7 +55,20 @@ def gust_of_scene() -> tuple[float, float]:
 
 
 def targets(recording: Recording) -> Array:
-    """Return where the vehicle should be at each state [m], shape (n, 3)."""
+    """
+    Return where the vehicle should be at each state.
+
+    Parameters
+    ----------
+    recording
+        The flight.
+
+    Returns
+    -------
+    Array
+        [m], world axes, shape (n, 3).
+
+    """
     switch = WAYPOINTS[0][4]
     late = recording.odometry[:, 0] >= switch
     return np.where(late[:, None], WAYPOINTS[1][:3], WAYPOINTS[0][:3])
@@ -65,7 +78,20 @@ def summary(recording: Recording, heard: Sequence[bytes], wall: float) -> dict[s
     """
     Return the numbers of the table, with units in their names.
 
-    ``heard`` is the odometry as it came over ROS, ``wall`` the wall time of the flight [s].
+    Parameters
+    ----------
+    recording
+        The flight.
+    heard
+        The odometry as it came over ROS.
+    wall
+        Wall time of the flight [s].
+
+    Returns
+    -------
+    dict
+        Number by name; None where the flight ended before what it is about.
+
     """
     times = recording.odometry[:, 0]
     error = np.linalg.norm(recording.odometry[:, 1:4] - targets(recording), axis=1)
@@ -99,7 +125,20 @@ def _largest(error: Array, times: Array, begin: float, end: float) -> float | No
 
 
 def table(result: dict[str, Any]) -> Table:
-    """Return the summary as a table for the terminal."""
+    """
+    Return the summary as a table for the terminal.
+
+    Parameters
+    ----------
+    result
+        As ``summary`` returns it.
+
+    Returns
+    -------
+    Table
+        A rich table.
+
+    """
     table = Table(title='Quadrotor in a gust, over ROS 2', show_header=False)
     table.add_column('quantity')
     table.add_column('value', justify='right')

@@ -19,7 +19,20 @@ _ENDIANNESS = {b'\x00\x00': '>', b'\x00\x01': '<'}
 
 
 class CdrReader:
-    """Reads members one after another from a CDR message."""
+    """
+    Reads members one after another from a CDR message.
+
+    Parameters
+    ----------
+    data
+        The message with its header of four bytes.
+
+    Raises
+    ------
+    CommandError
+        If it has no plain CDR header; the methods raise it where the message ends too early.
+
+    """
 
     def __init__(self, data: bytes) -> None:
         order = _ENDIANNESS.get(data[:2])
@@ -49,14 +62,40 @@ class CdrReader:
         return int(struct.unpack_from(self._order + 'I', self._data, self._take(4, 4))[0])
 
     def float64_array(self, length: int) -> Array:
-        """Return ``length`` doubles as a read-only array."""
+        """
+        Return doubles of a known number.
+
+        Parameters
+        ----------
+        length
+            How many.
+
+        Returns
+        -------
+        Array
+            Read-only, shape (length,).
+
+        """
         if length == 0:
             return np.empty(0)
         offset = self._take(8 * length, 8)
         return np.frombuffer(self._data, self._order + 'f8', length, offset)
 
     def array32(self, kind: str) -> Array:
-        """Return a sequence of four-byte numbers: ``kind`` is f4 or i4."""
+        """
+        Return a sequence of four-byte numbers.
+
+        Parameters
+        ----------
+        kind
+            NumPy's code of their type: ``f4`` or ``i4``.
+
+        Returns
+        -------
+        Array
+            As doubles, shape (n,).
+
+        """
         length = self.uint32()
         if length == 0:
             return np.empty(0)
@@ -108,7 +147,25 @@ class PairCommand:
 
 
 def read_float64_multi_array(data: bytes) -> Array:
-    """Return the values of a std_msgs/Float64MultiArray; its layout is read past."""
+    """
+    Return the values of a std_msgs/Float64MultiArray; its layout is read past.
+
+    Parameters
+    ----------
+    data
+        The message (CDR).
+
+    Returns
+    -------
+    Array
+        Shape (n,), in the unit of the topic.
+
+    Raises
+    ------
+    CommandError
+        If the message is truncated or malformed.
+
+    """
     reader = CdrReader(data)
     for _ in range(reader.uint32()):
         reader.string()
@@ -119,7 +176,25 @@ def read_float64_multi_array(data: bytes) -> Array:
 
 
 def read_joint_state(data: bytes) -> JointStateCommand:
-    """Return a sensor_msgs/JointState."""
+    """
+    Return a sensor_msgs/JointState.
+
+    Parameters
+    ----------
+    data
+        The message (CDR).
+
+    Returns
+    -------
+    JointStateCommand
+        Its stamp, names and lists.
+
+    Raises
+    ------
+    CommandError
+        If the message is truncated or malformed.
+
+    """
     reader = CdrReader(data)
     stamp_ns = reader.stamp_ns()
     reader.string()
@@ -133,7 +208,25 @@ def read_joint_state(data: bytes) -> JointStateCommand:
 
 
 def read_joy(data: bytes) -> tuple[Array, Array]:
-    """Return the axes and buttons of a sensor_msgs/Joy."""
+    """
+    Return the axes and buttons of a sensor_msgs/Joy.
+
+    Parameters
+    ----------
+    data
+        The message (CDR).
+
+    Returns
+    -------
+    axes, buttons
+        Shapes (n,) and (m,); axes from -1 to 1.
+
+    Raises
+    ------
+    CommandError
+        If the message is truncated or malformed.
+
+    """
     reader = CdrReader(data)
     reader.stamp_ns()
     reader.string()
@@ -141,7 +234,26 @@ def read_joy(data: bytes) -> tuple[Array, Array]:
 
 
 def read_stamped_pair(data: bytes) -> PairCommand:
-    """Return a geometry_msgs/WrenchStamped (force, torque) or TwistStamped (linear, angular)."""
+    """
+    Return a geometry_msgs/WrenchStamped (force, torque) or TwistStamped (linear, angular).
+
+    Parameters
+    ----------
+    data
+        The message (CDR).
+
+    Returns
+    -------
+    PairCommand
+        Its stamp, frame, and both vectors in that frame, shape (3,) each: [N], [N m] or [m/s],
+        [rad/s].
+
+    Raises
+    ------
+    CommandError
+        If the message is truncated or malformed.
+
+    """
     reader = CdrReader(data)
     return PairCommand(
         reader.stamp_ns(), reader.string(), reader.float64_array(3), reader.float64_array(3)

@@ -216,7 +216,22 @@ class Commands:
 def sticks_topic(
     vehicle: str, set_sticks: Callable[[list[float], list[float]], None]
 ) -> CommandTopic:
-    """Return the topic of the sticks with which a person flies an autopilot's vehicle."""
+    """
+    Return the topic of the sticks with which a person flies an autopilot's vehicle.
+
+    Parameters
+    ----------
+    vehicle
+        Name of the vehicle.
+    set_sticks
+        Takes axes (-1 to 1) and buttons.
+
+    Returns
+    -------
+    CommandTopic
+        ``<vehicle>/cmd/sticks``.
+
+    """
 
     def apply(data: bytes) -> Effect:
         axes, buttons = read_joy(data)

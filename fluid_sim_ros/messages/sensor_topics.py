@@ -79,7 +79,24 @@ class SensorTopic(StateTopic):
 
 
 def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> list[SensorTopic]:
-    """Return the topics of a vehicle's sensors."""
+    """
+    Return the topics of a vehicle's sensors.
+
+    Parameters
+    ----------
+    simulation
+        What is measured.
+    suite
+        The vehicle's sensors.
+    vehicle
+        Its name.
+
+    Returns
+    -------
+    list of SensorTopic
+        In the order of the schema.
+
+    """
     topics: list[SensorTopic] = []
 
     def add(

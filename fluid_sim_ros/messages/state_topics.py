@@ -41,6 +41,13 @@ class StateTopics:
     """
     Every state topic of a simulation.
 
+    Parameters
+    ----------
+    simulation
+        Whose state.
+    settings
+        Rates and variances, by the names of ``DEFAULTS``.
+
     Attributes
     ----------
     topics
@@ -85,8 +92,19 @@ class StateTopics:
         """
         Return a topic's message at the state of the last ``look``.
 
-        Nothing where a sensor has no new reading. Forces are evaluated for the first topic that
-        needs them: what was asked for before can be on its way already.
+        Forces are evaluated for the first topic that needs them: what was asked for before can be
+        on its way already.
+
+        Parameters
+        ----------
+        topic
+            One of ``topics``.
+
+        Returns
+        -------
+        bytes
+            The message (CDR); empty where a sensor has no new reading.
+
         """
         if topic.needs_forces and not self._forces_known:
             self._simulation.observe(forces=True)

@@ -30,6 +30,17 @@ class Template:
     """
     The bytes of one message; made by ``Template.of``.
 
+    Parameters
+    ----------
+    buffer
+        The message as written (CDR).
+    stamps
+        Where its stamps begin [bytes].
+    blocks
+        Where its runs of numbers that change begin and end [bytes].
+    padding
+        See below.
+
     Attributes
     ----------
     stamps

@@ -11,14 +11,32 @@ from fluid_sim_ros.simulation import Simulation
 
 
 class CommandTap:
-    """Hands the autopilot's commands to the recorder as if they had come on their topics."""
+    """
+    Hands the autopilot's commands to the recorder as if they had come on their topics.
+
+    Parameters
+    ----------
+    inputs
+        The node's command topics, which know their places in the log.
+
+    """
 
     def __init__(self, inputs: Inputs) -> None:
         self._inputs = inputs
         self._records = {entry.topic: entry for entry in inputs.inputs}
 
     def command(self, topic: str, data: bytes) -> None:
-        """Record a command message."""
+        """
+        Record a command message.
+
+        Parameters
+        ----------
+        topic
+            Name of its command topic, relative.
+        data
+            The message (CDR).
+
+        """
         if self._inputs.tap is not None:
             self._inputs.tap.command(self._records[topic].record, data)
 
@@ -29,7 +47,20 @@ class CommandTap:
 
 
 def check_pacing(settings: Mapping[str, Any]) -> None:
-    """Raise ConfigError where the pacing leaves no room for an autopilot."""
+    """
+    Check that the pacing leaves room for an autopilot.
+
+    Parameters
+    ----------
+    settings
+        Values of the node's parameters.
+
+    Raises
+    ------
+    ConfigError
+        If it is lockstep.
+
+    """
     if settings['pacing'] == 'lockstep':
         raise ConfigError(
             "parameter 'pacing': an autopilot is a lockstep of its own; use free or realtime"
@@ -44,7 +75,25 @@ def start_autopilot(
     reset: Callable[[], object],
 ) -> Bridge | None:
     """
-    Listen for the autopilot that the parameters ask for; None when they ask for none.
+    Listen for the autopilot that the parameters ask for.
+
+    Parameters
+    ----------
+    simulation
+        Whose vehicle it flies.
+    settings
+        Values of the node's parameters.
+    inputs
+        The node's command topics; an autopilot that takes sticks adds one.
+    report
+        Takes (key, line): a fault to log.
+    reset
+        Puts the vehicle back to where it started.
+
+    Returns
+    -------
+    Bridge or None
+        The bridge; None where the parameters ask for no autopilot.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """What the node says of itself on /diagnostics, once per second of wall time."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
@@ -19,6 +19,7 @@ from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.ros.graph_monitor import GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
@@ -36,40 +37,33 @@ _LIMIT_WARNINGS = (
 _PATIENT_MISSES = 10
 
 
-class GraphMonitor:
-    """Watches the ROS graph for peers that must not exist; runs in the executor's thread."""
-
-    def __init__(self, node: Node, report: Callable[[str, str], None]) -> None:
-        self._node = node
-        self._report = report
-        self.faults: tuple[str, ...] = ()
-        self._timer = node.create_timer(1.0, self.look)
-
-    def look(self) -> None:
-        """Read the graph and keep what is wrong with it."""
-        node = self._node
-        faults = []
-        clocks = node.get_publishers_info_by_topic('/clock')
-        if len(clocks) > 1:
-            # this node has one publisher; the others are named
-            names = sorted({_full_name(c) for c in clocks})
-            faults.append(f'{len(clocks)} publishers of /clock: {", ".join(names)}')
-        own = (node.get_name(), node.get_namespace())
-        if node.get_node_names_and_namespaces().count(own) > 1:
-            faults.append(f'another node is called {node.get_fully_qualified_name()}')
-        for fault in faults:
-            self._report(fault, fault)
-        self.faults = tuple(faults)
-
-
-def _full_name(endpoint: Any) -> str:
-    if 'UNKNOWN' in endpoint.node_name:  # discovery has its topic, but not yet its node
-        return '(a node that is still being discovered)'
-    return f'{endpoint.node_namespace.rstrip("/")}/{endpoint.node_name}'
-
-
 class Diagnostics:
-    """The /diagnostics publisher of a configured node; used by the stepping thread only."""
+    """
+    The /diagnostics publisher of a configured node; used by the stepping thread only.
+
+    Parameters
+    ----------
+    node
+        Owner of the publisher.
+    simulation
+        What is reported on.
+    inputs
+        The command topics.
+    graph
+        What is known of other nodes.
+    suites
+        Sensors of each vehicle.
+
+    Attributes
+    ----------
+    tap, bridge
+        Recorder and autopilot, where there are some.
+    record
+        Place of /diagnostics in the log, or -1.
+    real_time_factor
+        Simulated seconds per wall second since the last publication.
+
+    """
 
     def __init__(
         self,
@@ -97,7 +91,17 @@ class Diagnostics:
         self.real_time_factor = 0.0
 
     def publish(self, runner: Runner, diverged: str) -> None:
-        """Publish the present state of everything."""
+        """
+        Publish the present state of everything.
+
+        Parameters
+        ----------
+        runner
+            The loop, for its pacing and whether it is paused.
+        diverged
+            Why the run ended, or empty.
+
+        """
         self._measure_speed()
         message = DiagnosticArray()
         message.header.stamp = self._node.get_clock().now().to_msg()

@@ -42,6 +42,34 @@ class Inputs:
 
     ``poll`` takes what has arrived; ``wait`` blocks until the awaited topics have answered the
     present state. Both run in the stepping thread.
+
+    Parameters
+    ----------
+    node
+        Owner of the subscriptions.
+    simulation
+        What is commanded.
+    settings
+        Values of the node's parameters; ``pacing`` and ``command_timeout`` may change.
+    report
+        Takes (key, line): a fault to log.
+
+    Attributes
+    ----------
+    inputs
+        The topics, and what became of their messages.
+    stale
+        Age of each vehicle's thrust command.
+    saturated, ignored_answers
+        Values beyond their range, and answers to states of the past, so far.
+    tap
+        The recorder, or None.
+
+    Raises
+    ------
+    ConfigError
+        If ``lockstep.wait_for`` names no command topic, or the thrust unit does not fit a vehicle.
+
     """
 
     def __init__(
@@ -72,7 +100,15 @@ class Inputs:
     # ---- topics ----------------------------------------------------------------------------
 
     def add(self, topic: CommandTopic) -> None:
-        """Take commands on one more topic."""
+        """
+        Take commands on one more topic.
+
+        Parameters
+        ----------
+        topic
+            Its name, message type and effect.
+
+        """
         keep_all = self._by_count and topic.name.endswith(_COUNTED)
         subscription = PolledSubscription(
             self._node, topic.type, topic.name, NEWEST, keep_all, overridable=True
@@ -123,13 +159,36 @@ class Inputs:
     # ---- the runner's source ---------------------------------------------------------------
 
     def poll(self, simulation: Simulation) -> None:
-        """Apply what has arrived; topics without a publisher are looked at ten times a second."""
+        """
+        Apply what has arrived; topics without a publisher are looked at ten times a second.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+
+        """
         for entry in self.inputs if self._refresh_when_due() else self._active:
             self._drain(simulation, entry)
         self._expire()
 
     def wait(self, simulation: Simulation, timeout: float) -> bool:
-        """Block until every awaited topic has answered this step; False on timeout or a wake."""
+        """
+        Block until every awaited topic has answered this step.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+        timeout
+            Longest wait [s], wall time.
+
+        Returns
+        -------
+        bool
+            Whether all have answered; False on timeout or a wake-up.
+
+        """
         if self._missing_step != simulation.step_count:
             self._missing_step = simulation.step_count
             self._missing = [
@@ -152,7 +211,15 @@ class Inputs:
         self._wait_set.wake()
 
     def poll_unawaited(self, simulation: Simulation) -> None:
-        """Apply what has arrived on topics that the lockstep does not wait for."""
+        """
+        Apply what has arrived on topics that the lockstep does not wait for.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+
+        """
         self._refresh_when_due()
         for entry in self._active:
             if not entry.required:

@@ -14,13 +14,13 @@ from typing import Any, TypeVar
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.loop.request_queue import RequestQueue
-from fluid_sim_ros.ros import parameters
-from fluid_sim_ros.ros.diagnostics import GraphMonitor
+from fluid_sim_ros.ros.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.parameters import simulator as parameters
 from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.services import create_services
 from fluid_sim_ros.ros.session import Session
 
 Result = TypeVar('Result')
@@ -34,12 +34,7 @@ _LOG_PERIOD = 1.0
 
 
 class FluidSimNode(LifecycleNode):
-    """
-    Lifecycle node around a Session.
-
-    Services: ``~/reset``, ``~/step`` (Trigger), ``~/pause``, ``~/enable_wind`` (SetBool); their
-    answers carry the simulated time.
-    """
+    """Lifecycle node around a Session, with the services of ``create_services``."""
 
     def __init__(self) -> None:
         super().__init__(NODE_NAME)
@@ -54,10 +49,7 @@ class FluidSimNode(LifecycleNode):
         self.add_on_set_parameters_callback(self._judge_change)
         self.add_post_set_parameters_callback(self._take_change)
         self._graph = GraphMonitor(self, self._report)
-        self.create_service(Trigger, '~/reset', self._on_reset)
-        self.create_service(Trigger, '~/step', self._on_step)
-        self.create_service(SetBool, '~/pause', self._on_pause)
-        self.create_service(SetBool, '~/enable_wind', self._on_enable_wind)
+        create_services(self, self._on_session)
 
     # ---- stepping thread -------------------------------------------------------------------
 
@@ -115,23 +107,88 @@ class FluidSimNode(LifecycleNode):
     # ---- lifecycle -------------------------------------------------------------------------
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Load the scene and create the topics."""
+        """
+        Load the scene and create the topics.
+
+        Parameters
+        ----------
+        state
+            State that the node comes from.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            Whether it succeeded.
+
+        """
         return self._transition(self._create_session, _CONFIGURE_TIMEOUT)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Begin to step."""
+        """
+        Begin to step.
+
+        Parameters
+        ----------
+        state
+            State that the node comes from.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            Whether it succeeded.
+
+        """
         return self._transition(lambda: self._set_active(True))
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop stepping; the state is kept."""
+        """
+        Stop stepping; the state is kept.
+
+        Parameters
+        ----------
+        state
+            State that the node comes from.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            Whether it succeeded.
+
+        """
         return self._transition(lambda: self._set_active(False))
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Remove the scene and its topics."""
+        """
+        Remove the scene and its topics.
+
+        Parameters
+        ----------
+        state
+            State that the node comes from.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            Whether it succeeded.
+
+        """
         return self._transition(self._destroy_session)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """End the node's loop."""
+        """
+        End the node's loop.
+
+        Parameters
+        ----------
+        state
+            State that the node comes from.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            Whether it succeeded.
+
+        """
         self.end()
         return TransitionCallbackReturn.SUCCESS
 
@@ -169,31 +226,13 @@ class FluidSimNode(LifecycleNode):
 
     # ---- services and parameters (executor thread) -----------------------------------------
 
-    def _serve(self, response: Any, work: Callable[[Session], str]) -> Any:
+    def _on_session(self, work: Callable[[Session], str]) -> str:
         def on_session() -> str:
             if self._session is None:
                 raise FluidSimError('the node is not configured')
             return work(self._session)
 
-        try:
-            response.message = self._on_stepping_thread(on_session)
-            response.success = True
-        except FluidSimError as error:
-            response.message = str(error)
-            response.success = False
-        return response
-
-    def _on_reset(self, request: Any, response: Any) -> Any:
-        return self._serve(response, lambda session: session.reset())
-
-    def _on_step(self, request: Any, response: Any) -> Any:
-        return self._serve(response, lambda session: session.step())
-
-    def _on_pause(self, request: Any, response: Any) -> Any:
-        return self._serve(response, lambda session: session.pause(request.data))
-
-    def _on_enable_wind(self, request: Any, response: Any) -> Any:
-        return self._serve(response, lambda session: session.enable_wind(request.data))
+        return self._on_stepping_thread(on_session)
 
     def _judge_change(self, changes: list[Parameter]) -> SetParametersResult:
         return parameters.judge_change(changes, self._session is not None)
@@ -223,7 +262,20 @@ def _autostart(node: FluidSimNode) -> None:
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """Run the node until it is ended; returns the process's exit code."""
+    """
+    Run the node until it is ended.
+
+    Parameters
+    ----------
+    args
+        Command line; None means that of the process.
+
+    Returns
+    -------
+    int
+        The process's exit code.
+
+    """
     return run_process(NODE_NAME, FluidSimNode, args, _autostart)
 
 

@@ -56,8 +56,34 @@ class Outputs:
 
     Its period is the greatest common divisor of the periods of the topics that are wanted now
     and of the clock; wrenches and accelerations are evaluated, and sensors sampled, only at steps
-    where a subscribed or recorded topic needs them. Topics for eyes, such as markers, go to
+    where a subscribed or recorded topic needs them. Topics for display, such as markers, go to
     the log like all others, and to subscribers by ``show``.
+
+    Parameters
+    ----------
+    node
+        Owner of the publishers.
+    simulation
+        Whose state is published.
+    settings
+        Values of the node's parameters.
+
+    Attributes
+    ----------
+    topics
+        The topics, in the order in which they are published.
+    suites
+        Sensors of each vehicle.
+    period
+        Steps between two calls of ``write``.
+    tap
+        The recorder, or None.
+
+    Raises
+    ------
+    ConfigError
+        If a rate does not divide the step rate, or a sensor does not fit the model.
+
     """
 
     def __init__(self, node: Node, simulation: Simulation, settings: dict[str, Any]) -> None:
@@ -92,7 +118,15 @@ class Outputs:
     # ---- the runner's sink -----------------------------------------------------------------
 
     def write(self, simulation: Simulation) -> None:
-        """Publish and record every topic that is due at this step and wanted."""
+        """
+        Publish and record every topic that is due at this step and wanted.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+
+        """
         now = time.monotonic()
         if now - self._refreshed_at > REFRESH_PERIOD:
             self._refreshed_at = now
@@ -105,7 +139,15 @@ class Outputs:
                 self.tap.tick(recorded)
 
     def repeat(self, simulation: Simulation) -> None:
-        """Publish the present state again, also to subscribers that came since."""
+        """
+        Publish the present state again, also to subscribers that came since.
+
+        Parameters
+        ----------
+        simulation
+            At a step boundary.
+
+        """
         self.refresh()
         tick = simulation.tick
         self._publish([t for t in self._active if tick % t.period == 0])

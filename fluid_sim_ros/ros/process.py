@@ -12,8 +12,11 @@ import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
-from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.ros.preflight import check_domain, check_parameter_files
+from fluid_sim_ros.errors import ConfigError, FluidSimError
+from fluid_sim_ros.ros.parameters.files import check_parameter_files
+
+#: Largest ROS_DOMAIN_ID whose UDP ports stay below 65536 (OMG DDSI-RTPS 2.5, section 9.6.2.3).
+_LARGEST_DOMAIN = 232
 
 
 class Ending(Protocol):
@@ -95,7 +98,20 @@ def _spin(node: Any, start: Callable[[Any], None]) -> None:
 
 @contextmanager
 def executor_thread(node: Any) -> Iterator[None]:
-    """Serve a node's services and parameters in a thread of its own, which ends with the block."""
+    """
+    Serve a node's services and parameters in a thread of its own, which ends with the block.
+
+    Parameters
+    ----------
+    node
+        An rclpy node.
+
+    Yields
+    ------
+    None
+        While the thread runs.
+
+    """
     executor = SingleThreadedExecutor()
     executor.add_node(node)
 
@@ -115,7 +131,15 @@ def executor_thread(node: Any) -> Iterator[None]:
 
 
 def end_on_signal(node: Ending) -> None:
-    """End a loop at SIGINT or SIGTERM; a second signal ends the process at once."""
+    """
+    End a loop at SIGINT or SIGTERM; a second signal ends the process at once.
+
+    Parameters
+    ----------
+    node
+        Its ``end`` is called at the first signal.
+
+    """
     ending = False
 
     def on_signal(number: int, frame: Any) -> None:
@@ -132,3 +156,19 @@ def end_on_signal(node: Ending) -> None:
 def _fail(name: str, error: FluidSimError) -> int:
     sys.stderr.write(f'{name}: error: {error}\n')
     return 2
+
+
+def check_domain() -> None:
+    """
+    Check ROS_DOMAIN_ID, and keep discovery on this host unless the user opened it.
+
+    Raises
+    ------
+    ConfigError
+        If the domain is not a whole number from 0 to 232.
+
+    """
+    text = os.environ.get('ROS_DOMAIN_ID', '')
+    if text and not (text.isdecimal() and int(text) <= _LARGEST_DOMAIN):
+        raise ConfigError(f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to {_LARGEST_DOMAIN}")
+    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')

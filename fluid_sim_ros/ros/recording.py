@@ -32,7 +32,23 @@ def start_recording(
     diagnostics: Diagnostics,
 ) -> RecorderPort | None:
     """
-    Begin to record what the parameters ask for; None when they ask for nothing.
+    Begin to record what the parameters ask for.
+
+    Parameters
+    ----------
+    node
+        The simulator's node.
+    simulation
+        At the state that the log begins with.
+    settings
+        Values of the node's parameters.
+    inputs, outputs, diagnostics
+        What is recorded; each gets the recorder and its places in the log.
+
+    Returns
+    -------
+    RecorderPort or None
+        The recorder; None where the parameters ask for nothing.
 
     Raises
     ------

@@ -65,12 +65,42 @@ class ReplayOptions:
 
 
 def is_installed(message: str) -> bool:
-    """Return whether ROS here has the package of a message type, ``package/msg/Name``."""
+    """
+    Return whether ROS here has a message type.
+
+    Parameters
+    ----------
+    message
+        ``package/msg/Name``.
+
+    Returns
+    -------
+    bool
+        Whether its messages can be published.
+
+    """
     return find_message_class(message) is not None
 
 
 class ReplayNode(Node):
-    """The node that publishes."""
+    """
+    The node that publishes.
+
+    Parameters
+    ----------
+    topics
+        What is published.
+    options
+        How.
+
+    Attributes
+    ----------
+    published
+        Number of messages so far.
+    ending
+        Whether ``end`` was called.
+
+    """
 
     def __init__(self, topics: Sequence[RecordedTopic], options: ReplayOptions) -> None:
         super().__init__(NODE_NAME)
@@ -120,7 +150,16 @@ class ReplayNode(Node):
         self.ending = True
 
     def play(self, messages: Callable[[], Messages]) -> None:
-        """Publish all messages, again and again with ``loop``, until ``end``."""
+        """
+        Publish all messages, again and again with ``loop``, until ``end``.
+
+        Parameters
+        ----------
+        messages
+            Returns an iterable of (topic, simulated time [ns], CDR bytes), in order; called anew
+            for each round.
+
+        """
         self._await_subscribers()
         while not self.ending:
             self._play_once(iter(messages()))
@@ -191,9 +230,23 @@ def replay(
     topics: Sequence[RecordedTopic], messages: Callable[[], Messages], options: ReplayOptions
 ) -> int:
     """
-    Publish until the end, or until SIGINT or SIGTERM; return how many were published.
+    Publish until the end, or until SIGINT or SIGTERM; a second signal ends the process at once.
 
-    A second signal ends the process at once.
+    Parameters
+    ----------
+    topics
+        What is published.
+    messages
+        Returns an iterable of (topic, simulated time [ns], CDR bytes), in order; called anew for
+        each round.
+    options
+        How.
+
+    Returns
+    -------
+    int
+        How many messages were published.
+
     """
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = ReplayNode(topics, options)

@@ -12,7 +12,8 @@ from fluid_sim_ros.loop.pacing import Lockstep, Pacing, RealTime
 from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.ros.autopilot import check_pacing, start_autopilot
-from fluid_sim_ros.ros.diagnostics import Diagnostics, GraphMonitor
+from fluid_sim_ros.ros.diagnostics import Diagnostics
+from fluid_sim_ros.ros.graph_monitor import GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.recording import start_recording
@@ -122,7 +123,15 @@ class Session:
         return self.simulation.tick >= self._until
 
     def idle(self, requests: RequestQueue) -> None:
-        """Wait for requests while there is nothing to run, and stay visible."""
+        """
+        Wait for requests while there is nothing to run, and stay visible.
+
+        Parameters
+        ----------
+        requests
+            Where they arrive.
+
+        """
         requests.idle()
         self._housekeeping()
 
@@ -199,7 +208,25 @@ class Session:
         return self._time()
 
     def pause(self, paused: bool) -> str:
-        """Pause or go on."""
+        """
+        Pause or go on.
+
+        Parameters
+        ----------
+        paused
+            Whether to pause.
+
+        Returns
+        -------
+        str
+            Simulated time and step, to tell the caller.
+
+        Raises
+        ------
+        CommandError
+            If the run has diverged.
+
+        """
         self._check_alive()
         self.runner.paused = paused
         return self._time()
@@ -214,12 +241,38 @@ class Session:
         return self._time()
 
     def enable_wind(self, enabled: bool) -> str:
-        """Switch wind and current on or off."""
+        """
+        Switch wind and current on or off.
+
+        Parameters
+        ----------
+        enabled
+            Whether they act.
+
+        Returns
+        -------
+        str
+            Simulated time and step, to tell the caller.
+
+        """
         self.change({'enable_wind': enabled})
         return self._time()
 
     def change(self, values: dict[str, Any]) -> None:
-        """Take over live parameters; a pacing that cannot be leaves the old one in place."""
+        """
+        Take over live parameters; a pacing that cannot be leaves the old one in place.
+
+        Parameters
+        ----------
+        values
+            New value by parameter name.
+
+        Raises
+        ------
+        FluidSimError
+            If a value does not fit the others; nothing is changed then.
+
+        """
         before = dict(self._settings)
         self._settings.update(values)
         try:

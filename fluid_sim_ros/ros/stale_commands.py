@@ -51,7 +51,15 @@ class StaleCommands:
         self.freshness = {name: Freshness() for name in simulation.vehicles}
 
     def commanded(self, vehicle: str) -> None:
-        """Note a command that took effect now."""
+        """
+        Note a command that took effect now.
+
+        Parameters
+        ----------
+        vehicle
+            Name of the vehicle that was commanded.
+
+        """
         freshness = self.freshness[vehicle]
         freshness.commanded_at = self._clock()
         freshness.stale = False

@@ -8,7 +8,7 @@ import pytest
 from fluid_sim_ros.messages.commands import JOINT_STATE, JOY, MULTI_ARRAY, TWIST, WRENCH
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import CLOCK, DEFAULTS, ODOMETRY
-from fluid_sim_ros.ros.parameters import TABLE
+from fluid_sim_ros.ros.parameters.simulator import TABLE
 
 pytestmark = pytest.mark.ros
 

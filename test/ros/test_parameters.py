@@ -10,9 +10,11 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.ros import parameters, preflight
 from fluid_sim_ros.ros.controllers import parameters as controller_parameters
-from fluid_sim_ros.ros.parameter_table import check
+from fluid_sim_ros.ros.parameters import files
+from fluid_sim_ros.ros.parameters import simulator as parameters
+from fluid_sim_ros.ros.parameters.table import check
+from fluid_sim_ros.ros.process import check_domain
 
 pytestmark = pytest.mark.ros
 
@@ -65,7 +67,7 @@ def test_physics_is_fixed_while_configured_and_pacing_is_not():
 
 @pytest.mark.parametrize('path', sorted((config_folder() / 'params').glob('*.yaml')), ids=str)
 def test_shipped_parameter_files_hold_known_flat_parameters(path):
-    preflight.check_parameter_files(['--params-file', str(path)])
+    files.check_parameter_files(['--params-file', str(path)])
     nodes = yaml.safe_load(path.read_text())
     for name, value in nodes.pop('fluid_sim_node')['ros__parameters'].items():
         assert check(parameters.TABLE, name, value) is None
@@ -92,25 +94,25 @@ def test_a_file_that_ros_would_mangle_is_refused(tmp_path, text, line):
     path = tmp_path / 'p.yaml'
     path.write_text(text)
     with pytest.raises(ConfigError, match=line):
-        preflight.check_parameter_files(['--ros-args', '--params-file', str(path)])
+        files.check_parameter_files(['--ros-args', '--params-file', str(path)])
 
 
 def test_a_missing_parameter_file_is_named():
     with pytest.raises(ConfigError, match=r'gone\.yaml: no such parameter file'):
-        preflight.check_parameter_files(['--params-file', 'gone.yaml'])
+        files.check_parameter_files(['--params-file', 'gone.yaml'])
 
 
 @pytest.mark.parametrize('text', ['233', '-1', 'abc', '1.5', '99999999999'])
 def test_a_wrong_domain_is_refused(monkeypatch, text):
     monkeypatch.setenv('ROS_DOMAIN_ID', text)
     with pytest.raises(ConfigError, match=f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to 232"):
-        preflight.check_domain()
+        check_domain()
 
 
 def test_discovery_stays_on_this_host_unless_opened(monkeypatch):
     monkeypatch.delenv('ROS_AUTOMATIC_DISCOVERY_RANGE', raising=False)
-    preflight.check_domain()
+    check_domain()
     assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'LOCALHOST'
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
-    preflight.check_domain()
+    check_domain()
     assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'SUBNET'

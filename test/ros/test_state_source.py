@@ -8,7 +8,7 @@ from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.context import Context
 
-from fluid_sim_ros.ros.state_source import StateSource
+from fluid_sim_ros.ros.controllers.state_source import StateSource
 from test.support.ros_processes import Peer, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]

@@ -10,7 +10,7 @@ from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 
 from fluid_sim_ros.errors import CommandError
-from fluid_sim_ros.ros.states import read_odometry
+from fluid_sim_ros.ros.controllers.states import read_odometry
 
 numbers = st.lists(st.floats(-1e6, 1e6), min_size=13, max_size=13)
 

@@ -10,7 +10,7 @@ from fluid_sim_ros.control.torpedo import CruiseTarget, TorpedoController, Torpe
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
-from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process import run_process
 
 NODE_NAME = 'auv_controller'
@@ -55,7 +55,20 @@ class AuvController(ControllerNode):
         self._first = None
 
     def answer(self, state: State) -> Answer:
-        """Return the thrust [N] and the deflections [rad] that hold what is wanted."""
+        """
+        Return the thrust and the deflections that hold what is wanted.
+
+        Parameters
+        ----------
+        state
+            State of base_link as odometry has it, world axes and base_link axes.
+
+        Returns
+        -------
+        Answer
+            Thrust [N] and deflections [rad].
+
+        """
         x, y, z = state.position_w
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._first is None:
@@ -72,7 +85,20 @@ class AuvController(ControllerNode):
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """Run the controller; returns the process's exit code."""
+    """
+    Run the controller.
+
+    Parameters
+    ----------
+    args
+        Command line; None means that of the process.
+
+    Returns
+    -------
+    int
+        The process's exit code.
+
+    """
     return run_process(NODE_NAME, AuvController, args)
 
 

@@ -28,10 +28,10 @@ from fluid_sim_ros.messages.commands import JOINT_STATE
 from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.messages.topic import NEWEST, STATE
 from fluid_sim_ros.ros.controllers import parameters as parameters
-from fluid_sim_ros.ros.parameter_table import Table, declare, judge
+from fluid_sim_ros.ros.controllers.state_source import StateSource
+from fluid_sim_ros.ros.controllers.states import StampedState
+from fluid_sim_ros.ros.parameters.table import Table, declare, judge
 from fluid_sim_ros.ros.raw import PolledSubscription, RawPublisher, WaitSet
-from fluid_sim_ros.ros.state_source import StateSource
-from fluid_sim_ros.ros.states import StampedState
 from fluid_sim_ros.simulation.plant import plant_of
 
 #: Longest wait before signals are looked at again [s].
@@ -144,6 +144,16 @@ class ControllerNode(Node, ABC):
         """
         Return where each joint actuator of the vehicle stands among those that a law commands.
 
+        Parameters
+        ----------
+        commanded
+            Joint actuators in the order of the law's answer.
+
+        Returns
+        -------
+        list of int
+            One index into ``commanded`` per joint actuator of the vehicle, in its order.
+
         Raises
         ------
         ConfigError
@@ -162,7 +172,20 @@ class ControllerNode(Node, ABC):
 
     @abstractmethod
     def answer(self, state: State) -> Answer:
-        """Return the commands that answer a state."""
+        """
+        Return the commands that answer a state.
+
+        Parameters
+        ----------
+        state
+            State of base_link as odometry has it, world axes and base_link axes.
+
+        Returns
+        -------
+        Answer
+            Thrusts [N], and joint commands in their own units.
+
+        """
 
     @abstractmethod
     def restart(self) -> None:

@@ -7,7 +7,7 @@ from typing import TypeVar
 from rclpy.node import Node
 
 from fluid_sim_ros.control.gains import Gains, describe
-from fluid_sim_ros.ros.parameter_table import Declared, Table
+from fluid_sim_ros.ros.parameters.table import Declared, Table
 
 GainSet = TypeVar('GainSet', bound=Gains)
 
@@ -34,7 +34,22 @@ COMMON: dict[str, Declared] = {
 
 
 def table_of(gains: type[Gains], own: Table) -> dict[str, Declared]:
-    """Return the whole table of a controller: the common part, its own, and its gains."""
+    """
+    Return the whole table of a controller: the common part, its own, and its gains.
+
+    Parameters
+    ----------
+    gains
+        Class of the gains; each of its fields becomes a parameter ``gains.<field>``.
+    own
+        Parameters of this controller beside the common ones, or in their place.
+
+    Returns
+    -------
+    dict
+        Parameter by name.
+
+    """
     table = {**COMMON, **own}
     for entry in fields(gains):
         table[_GAINS + entry.name] = Declared(entry.default, describe(entry), low=0)
@@ -42,10 +57,45 @@ def table_of(gains: type[Gains], own: Table) -> dict[str, Declared]:
 
 
 def number(node: Node, name: str) -> float:
-    """Return a numeric parameter."""
+    """
+    Return a numeric parameter.
+
+    Parameters
+    ----------
+    node
+        Its node.
+    name
+        Its name.
+
+    Returns
+    -------
+    float
+        Its value, also where it was given as an integer.
+
+    """
     return float(node.get_parameter(name).value)
 
 
 def gains(node: Node, kind: type[GainSet]) -> GainSet:
-    """Return the gains as the parameters have them."""
+    """
+    Return the gains as the parameters have them.
+
+    Parameters
+    ----------
+    node
+        Node with parameters ``gains.<field>``.
+    kind
+        Class of the gains.
+
+    Returns
+    -------
+    Gains
+        An object of that class.
+
+    Raises
+    ------
+    ConfigError
+        If a gain is out of range.
+
+    """
     return kind(**{entry.name: number(node, _GAINS + entry.name) for entry in fields(kind)})

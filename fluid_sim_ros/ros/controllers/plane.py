@@ -15,7 +15,7 @@ from fluid_sim_ros.control.state import State
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import HEADING, OF_FIRST
-from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process import run_process
 
 NODE_NAME = 'plane_controller'
@@ -67,7 +67,20 @@ class PlaneController(ControllerNode):
         self._first = None
 
     def answer(self, state: State) -> Answer:
-        """Return thrust [N] and deflections [rad] that hold what is wanted."""
+        """
+        Return thrust and deflections that hold what is wanted.
+
+        Parameters
+        ----------
+        state
+            State of base_link as odometry has it, world axes and base_link axes.
+
+        Returns
+        -------
+        Answer
+            Thrust [N] and deflections [rad].
+
+        """
         r_wb = rot.from_quaternion(state.quat_wb_wxyz)
         if self._first is None:
             self._first = (state.position_w[2], rot.yaw_of(r_wb))
@@ -84,7 +97,20 @@ class PlaneController(ControllerNode):
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """Run the controller; returns the process's exit code."""
+    """
+    Run the controller.
+
+    Parameters
+    ----------
+    args
+        Command line; None means that of the process.
+
+    Returns
+    -------
+    int
+        The process's exit code.
+
+    """
     return run_process(NODE_NAME, PlaneController, args)
 
 

@@ -28,7 +28,20 @@ class QuadController(ControllerNode):
         self._home = None
 
     def answer(self, state: State) -> Answer:
-        """Return the thrusts [N] towards the present waypoint."""
+        """
+        Return the thrusts towards the present waypoint.
+
+        Parameters
+        ----------
+        state
+            State of base_link as odometry has it, world axes and base_link axes.
+
+        Returns
+        -------
+        Answer
+            Thrusts [N].
+
+        """
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._home is None:
             x, y, z = state.position_w
@@ -38,7 +51,20 @@ class QuadController(ControllerNode):
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """Run the controller; returns the process's exit code."""
+    """
+    Run the controller.
+
+    Parameters
+    ----------
+    args
+        Command line; None means that of the process.
+
+    Returns
+    -------
+    int
+        The process's exit code.
+
+    """
     return run_process(NODE_NAME, QuadController, args)
 
 

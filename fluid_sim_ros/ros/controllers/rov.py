@@ -10,7 +10,7 @@ from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, 
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
-from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process import run_process
 
 NODE_NAME = 'rov_controller'
@@ -47,7 +47,20 @@ class RovController(ControllerNode):
         self._first = None
 
     def answer(self, state: State) -> Answer:
-        """Return the thrusts [N] that hold what is wanted."""
+        """
+        Return the thrusts that hold what is wanted.
+
+        Parameters
+        ----------
+        state
+            State of base_link as odometry has it, world axes and base_link axes.
+
+        Returns
+        -------
+        Answer
+            Thrusts [N].
+
+        """
         yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._first is None:
             self._first = (-state.position_w[2], yaw)
@@ -64,7 +77,20 @@ class RovController(ControllerNode):
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """Run the controller; returns the process's exit code."""
+    """
+    Run the controller.
+
+    Parameters
+    ----------
+    args
+        Command line; None means that of the process.
+
+    Returns
+    -------
+    int
+        The process's exit code.
+
+    """
     return run_process(NODE_NAME, RovController, args)
 
 

@@ -10,8 +10,8 @@ from rclpy.parameter import Parameter
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import LOOPBACK, PROTOCOLS
 from fluid_sim_ros.messages import commands, state_topics
-from fluid_sim_ros.ros import parameter_table
-from fluid_sim_ros.ros.parameter_table import Declared
+from fluid_sim_ros.ros.parameters import table as parameter_table
+from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.raw import parameter_overrides
 from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
 
@@ -138,6 +138,11 @@ def declare_all(node: Node) -> None:
     """
     Declare the whole table on the node.
 
+    Parameters
+    ----------
+    node
+        The simulator's node.
+
     Raises
     ------
     ConfigError
@@ -151,7 +156,20 @@ def declare_all(node: Node) -> None:
 
 
 def read_all(node: Node) -> dict[str, Any]:
-    """Return the present values; a float parameter that was given as an integer is a float."""
+    """
+    Return the present values; a float parameter that was given as an integer is a float.
+
+    Parameters
+    ----------
+    node
+        The simulator's node.
+
+    Returns
+    -------
+    dict
+        Value by parameter name, in the parameter's unit.
+
+    """
     values = {}
     for name, declared in TABLE.items():
         value = node.get_parameter(name).value
@@ -160,7 +178,22 @@ def read_all(node: Node) -> dict[str, Any]:
 
 
 def judge_change(parameters: Sequence[Parameter], configured: bool) -> SetParametersResult:
-    """Accept or refuse a change at run time, with the reason."""
+    """
+    Accept or refuse a change at run time.
+
+    Parameters
+    ----------
+    parameters
+        What shall be changed.
+    configured
+        Whether the node is configured, so that only live parameters may change.
+
+    Returns
+    -------
+    SetParametersResult
+        Whether it is accepted, and the reason where it is not.
+
+    """
     if any(change.name == 'use_sim_time' and change.value for change in parameters):
         return SetParametersResult(successful=False, reason=USE_SIM_TIME_REFUSED)
     fixed = 'the node is configured (cleanup first)' if configured else ''

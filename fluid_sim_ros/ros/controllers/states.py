@@ -37,6 +37,16 @@ def read_odometry(data: bytes) -> StampedState:
     Plain CDR (see ``cdr``); one function without a reader object, as it stands in the loop that
     answers every state.
 
+    Parameters
+    ----------
+    data
+        The message (CDR).
+
+    Returns
+    -------
+    StampedState
+        Its stamp [ns], and the state: pose in the odometry's frame, twist in base_link axes.
+
     Raises
     ------
     CommandError

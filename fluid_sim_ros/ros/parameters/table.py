@@ -62,6 +62,13 @@ def declare(node: Node, table: Table) -> None:
     """
     Declare a table on a node.
 
+    Parameters
+    ----------
+    node
+        The node.
+    table
+        Its parameters by name.
+
     Raises
     ------
     ConfigError
@@ -98,7 +105,24 @@ def _choices(declared: Declared) -> str:
 
 
 def check(table: Table, name: str, value: Any) -> str | None:
-    """Return what is wrong with a parameter's value in one line, or None."""
+    """
+    Return what is wrong with a parameter's value.
+
+    Parameters
+    ----------
+    table
+        The node's parameters by name.
+    name
+        One of them.
+    value
+        What it shall be.
+
+    Returns
+    -------
+    str or None
+        One line that names parameter and value, or None where nothing is wrong.
+
+    """
     declared = table[name]
     where = f"parameter '{name}': {value!r}"
     default = declared.default
@@ -143,10 +167,22 @@ def _check_range(where: str, declared: Declared, values: Sequence[float]) -> str
 
 def judge(table: Table, changes: Sequence[Parameter], fixed: str) -> SetParametersResult:
     """
-    Accept or refuse a change at run time, with the reason.
+    Accept or refuse a change at run time.
 
-    ``fixed`` says while what the parameters that are not live keep their values; empty: they may
-    change now.
+    Parameters
+    ----------
+    table
+        The node's parameters by name.
+    changes
+        What shall be changed.
+    fixed
+        While what the parameters that are not live keep their values; empty: they may change now.
+
+    Returns
+    -------
+    SetParametersResult
+        Whether it is accepted, and the reason where it is not.
+
     """
     for change in changes:
         declared = table.get(change.name)

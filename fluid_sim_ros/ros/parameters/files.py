@@ -1,6 +1,5 @@
-"""What is checked before ROS starts: ROS_DOMAIN_ID, and parameter files."""
+"""What is checked of parameter files before ROS reads them."""
 
-import os
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -10,29 +9,15 @@ import yaml
 
 from fluid_sim_ros.errors import ConfigError
 
-#: Largest ROS_DOMAIN_ID whose UDP ports stay below 65536 (OMG DDSI-RTPS 2.5, section 9.6.2.3).
-_LARGEST_DOMAIN = 232
-
-
-def check_domain() -> None:
-    """
-    Check ROS_DOMAIN_ID, and keep discovery on this host unless the user opened it.
-
-    Raises
-    ------
-    ConfigError
-        If the domain is not a whole number from 0 to 232.
-
-    """
-    text = os.environ.get('ROS_DOMAIN_ID', '')
-    if text and not (text.isdecimal() and int(text) <= _LARGEST_DOMAIN):
-        raise ConfigError(f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to {_LARGEST_DOMAIN}")
-    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-
 
 def check_parameter_files(arguments: Sequence[str]) -> None:
     """
     Refuse parameter files that the ROS parser would read as something else without a word.
+
+    Parameters
+    ----------
+    arguments
+        Command line of the process.
 
     Raises
     ------
