@@ -1,28 +1,19 @@
 """The topics of a vehicle's sensors: each new reading as one message, when it appears."""
 
 import math
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.messages.templates import Source, StampBytes, Template
+from fluid_sim_ros.messages.sensor_messages import UNKNOWN, layout_of
+from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.messages.topic import SENSOR, StateTopic
 from fluid_sim_ros.schema.sensors import Channel
 from fluid_sim_ros.sensors import SensorSuite
-from fluid_sim_ros.sensors.airspeed import Airspeed
-from fluid_sim_ros.sensors.beams import Dvl, Rangefinder
-from fluid_sim_ros.sensors.gnss import Gnss
-from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
+from fluid_sim_ros.sensors.reading import Reading
 from fluid_sim_ros.sensors.sensor import Sensor
 from fluid_sim_ros.simulation import Simulation
-
-Array = NDArray[np.float64] | NDArray[np.float32]
-
-_GEODETIC = ('latitude', 'longitude', 'altitude')
-#: Variance of what is not measured, for messages that cannot say so otherwise.
-UNKNOWN = 1e6
 
 
 class SensorTopic(StateTopic):
@@ -34,39 +25,45 @@ class SensorTopic(StateTopic):
 
     Parameters
     ----------
-    simulation, sensor
-        What is measured, and by what.
-    name, message
-        Topic name and message type.
-    constants
-        What stays in the message, as for ``Template.of``.
-    sources
-        Arrays of the sensor that members of the message follow.
-    prepare
-        Called before each message is made.
+    simulation
+        What is measured.
+    sensor
+        By what.
+    reading
+        Which of its topics.
+    vehicle
+        Name of the vehicle.
 
     """
 
     def __init__(
-        self,
-        simulation: Simulation,
-        sensor: Sensor,
-        name: str,
-        message: str,
-        constants: Mapping[str, Any],
-        sources: Mapping[str, Source],
-        prepare: Callable[[], None] | None = None,
+        self, simulation: Simulation, sensor: Sensor, reading: Reading, vehicle: str
     ) -> None:
         self._simulation, self._sensor = simulation, sensor
         self._stamp = StampBytes()
-        constants = {'header.frame_id': sensor.frame, **constants}
-        template = Template.of(message, constants, list(sources))
+        sources = _sources(sensor, reading)
+        template = Template.of(reading.message, _constants(sensor, reading), list(sources))
+        self._singles: list[tuple[NDArray[Any], NDArray[Any]]] = []
         copies = [(template.stamps[0], self._stamp.view)]
-        copies += template.copies(list(sources.values()))
+        pairs = zip(sources.values(), template.blocks, strict=True)
+        copies += template.copies([self._as_wide(numbers, len(b)) for numbers, b in pairs])
         super().__init__(
-            name, message, template, math.gcd(sensor.period, sensor.latency), copies,
-            sensor.needs_forces, prepare, SENSOR, appears_later=sensor.latency > 0,
+            f'{vehicle}/{reading.topic}', reading.message, template,
+            math.gcd(sensor.period, sensor.latency), copies, sensor.needs_forces,
+            self._narrow if self._singles else None, SENSOR, appears_later=sensor.latency > 0,
         )  # fmt: skip
+
+    def _as_wide(self, numbers: NDArray[Any], size: int) -> NDArray[Any]:
+        """Return an array of as many bytes: in single precision where the message has that."""
+        if size == numbers.nbytes:
+            return numbers
+        single = np.zeros(numbers.shape, np.float32)
+        self._singles.append((single, numbers))
+        return single
+
+    def _narrow(self) -> None:
+        for single, numbers in self._singles:
+            single[:] = numbers
 
     def data(self) -> bytes:
         """Return the message of a new reading, or nothing if none has appeared."""
@@ -97,104 +94,41 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
         In the order of the schema.
 
     """
-    topics: list[SensorTopic] = []
-
-    def add(
-        sensor: Sensor,
-        name: str,
-        message: str,
-        constants: Mapping[str, Any],
-        sources: Mapping[str, Source],
-        prepare: Callable[[], None] | None = None,
-    ) -> None:
-        full = f'{vehicle}/{name}'
-        topics.append(SensorTopic(simulation, sensor, full, message, constants, sources, prepare))
-
-    def pressure(sensor: Barometer | WaterPressure | Airspeed, name: str) -> None:
-        add(
-            sensor, name, 'sensor_msgs/msg/FluidPressure',
-            {'variance': _variance(sensor, sensor.config.pressure)},
-            {'fluid_pressure': sensor.values},
-        )  # fmt: skip
-
-    def distance(sensor: Rangefinder | Dvl, name: str, channel: Channel, value: Array) -> None:
-        low, high = channel.range or (0.0, math.inf)
-        single = np.zeros(1, dtype=np.float32)
-        add(
-            sensor, name, 'sensor_msgs/msg/Range',
-            {
-                'radiation_type': 0 if isinstance(sensor, Dvl) else 1,  # ultrasound, infrared
-                'min_range': low, 'max_range': high, 'variance': _variance(sensor, channel),
-            },
-            {'range': single},
-            prepare=lambda: np.copyto(single, value, casting='same_kind'),
-        )  # fmt: skip
-
-    def velocity(sensor: Gnss | Dvl, name: str, frame: str, value: Array) -> None:
-        add(
-            sensor, name, 'geometry_msgs/msg/TwistWithCovarianceStamped',
-            {
-                'header.frame_id': frame,
-                'twist.covariance': _diagonal(
-                    *[_variance(sensor, sensor.config.velocity)] * 3, *[UNKNOWN] * 3
-                ),
-            },
-            {'twist.twist.linear': value},
-        )  # fmt: skip
-
-    if imu := suite.imu:
-        add(
-            imu, 'imu/data', 'sensor_msgs/msg/Imu',
-            {
-                'orientation_covariance': _diagonal(-1.0, 0.0, 0.0),  # there is no orientation
-                'angular_velocity_covariance': _diagonal(
-                    *[_variance(imu, imu.config.gyroscope)] * 3
-                ),
-                'linear_acceleration_covariance': _diagonal(
-                    *[_variance(imu, imu.config.accelerometer)] * 3
-                ),
-            },
-            {'angular_velocity': imu.angular_velocity, 'linear_acceleration': imu.specific_force},
-        )  # fmt: skip
-    if compass := suite.magnetometer:
-        variance = _variance(compass, compass.config.field)
-        add(
-            compass, 'imu/mag', 'sensor_msgs/msg/MagneticField',
-            {'magnetic_field_covariance': _diagonal(*[variance] * 3)},
-            {'magnetic_field': compass.field},
-        )  # fmt: skip
-    if suite.barometer:
-        pressure(suite.barometer, 'pressure')
-    if suite.pressure:
-        pressure(suite.pressure, 'water/pressure')
-    if suite.airspeed:
-        pressure(suite.airspeed, 'airspeed/pressure')
-    if gnss := suite.gnss:
-        horizontal = _variance(gnss, gnss.config.horizontal)
-        vertical = _variance(gnss, gnss.config.vertical)
-        add(
-            gnss, 'gps/fix', 'sensor_msgs/msg/NavSatFix',
-            {
-                'status': {'status': 0, 'service': 1},  # a fix, by GPS
-                'position_covariance': _diagonal(horizontal, horizontal, vertical),
-                'position_covariance_type': 2,  # the diagonal is known
-            },
-            {name: gnss.geodetic[i : i + 1] for i, name in enumerate(_GEODETIC)},
-        )  # fmt: skip
-        velocity(gnss, 'gps/vel', 'map', gnss.velocity_w)
-    if finder := suite.rangefinder:
-        distance(finder, 'range', finder.config.distance, finder.values)
-    if dvl := suite.dvl:
-        velocity(dvl, 'dvl/twist', dvl.frame, dvl.velocity)
-        distance(dvl, 'dvl/altitude', dvl.config.altitude, dvl.values[3:])
-    return topics
+    return [
+        SensorTopic(simulation, sensor, reading, vehicle)
+        for sensor in suite.sensors
+        for reading in sensor.readings
+    ]
 
 
-def _variance(sensor: Sensor, channel: Channel) -> float:
-    return channel.variance(sensor.config.rate)
+def _sources(sensor: Sensor, reading: Reading) -> dict[str, NDArray[Any]]:
+    """Return the numbers that each member of a message follows."""
+    sources: dict[str, NDArray[Any]] = {}
+    layout = layout_of(reading.message)
+    for quantity, members in zip(reading.quantities, layout.quantities, strict=True):
+        numbers = getattr(sensor, quantity.name)
+        for i, member in enumerate(members):
+            sources[member] = numbers if len(members) == 1 else numbers[i : i + 1]
+    return sources
 
 
-def _diagonal(*values: float) -> list[float]:
-    """Return a covariance matrix, row by row."""
-    numbers: list[float] = np.diag(values).ravel().tolist()
-    return numbers
+def _constants(sensor: Sensor, reading: Reading) -> dict[str, Any]:
+    """Return what stays in a message: its frame, and the variances of the sensor's errors."""
+    layout = layout_of(reading.message)
+    constants: dict[str, Any] = {
+        'header.frame_id': reading.frame or sensor.frame, **layout.constants, **reading.constants,
+    }  # fmt: skip
+    for quantity, member in zip(reading.quantities, layout.variances, strict=True):
+        channels: list[Channel] = [getattr(sensor.config, key) for key in quantity.channels]
+        variances = [channel.variance(sensor.config.rate) for channel in channels]
+        if len(variances) == 1:
+            variances *= getattr(sensor, quantity.name).size
+        if layout.size == 1:
+            (constants[member],) = variances
+        else:
+            variances += [UNKNOWN] * (layout.size - len(variances))
+            constants[member] = np.diag(variances).ravel()
+        if layout.limits:
+            limits = channels[0].range or (0.0, math.inf)
+            constants |= zip(layout.limits, limits, strict=True)
+    return constants
