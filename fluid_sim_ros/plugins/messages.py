@@ -3,10 +3,12 @@
 import re
 
 from fluid_sim_ros.errors import listed
+from fluid_sim_ros.plugins.attached import REMEDY
 from fluid_sim_ros.plugins.native import native
 
 _OURS = re.compile(r'^(fluid_sim\.\w+: .*)$', re.MULTILINE)
 _UNKNOWN_KEY = re.compile(r"unrecognized attribute 'plugin:(\w+)' for plugin ([\w.]+)")
+_OUT_OF_BOUNDS = re.compile(r'Invalid model: (\w+)_plugin out of bounds')
 _ELEMENT = re.compile(r"Element name '([^']*)'")
 
 
@@ -35,6 +37,8 @@ def load_error_line(error: Exception) -> str:
         return (
             f"{plugin}: {where}unknown key '{key}'; it has: {listed(native().plugin_keys(plugin))}"
         )
+    if outside := _OUT_OF_BOUNDS.search(text):
+        return f'the plugin of one {outside[1]} is not in the model: {REMEDY}'
     if 'plugin->init failed' in text:
         return 'a plugin refuses the changed model; the WARNING before this line says why'
     return ' '.join(text.split())

@@ -7,6 +7,7 @@ import mujoco
 
 from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.plugins import load_plugins
+from fluid_sim_ros.plugins.attached import dropped_plugin
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene.fluid_models import compile_spec, force_fluid
 from fluid_sim_ros.scene.gaits import Gaits
@@ -187,10 +188,14 @@ class Scene:
         """Return the model as it is written, or raise ModelError."""
         try:
             if self.mjcf:
-                return mujoco.MjSpec.from_string(self.mjcf)
-            return mujoco.MjSpec.from_file(str(self.model_path))
+                spec = mujoco.MjSpec.from_string(self.mjcf)
+            else:
+                spec = mujoco.MjSpec.from_file(str(self.model_path))
         except ValueError as error:
             raise ModelError(f'{self.model_path}: {" ".join(str(error).split())}') from None
+        if lost := dropped_plugin(spec):
+            raise ModelError(f'{self.model_path}: {lost}')
+        return spec
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
         files = self.vehicles

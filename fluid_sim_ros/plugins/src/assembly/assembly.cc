@@ -9,6 +9,7 @@
 #include "body/stock_terms.h"
 #include "shared/config.h"
 #include "shared/point_motion.h"
+#include "shared/references.h"
 #include "shared/spatial.h"
 #include "thruster/thruster.h"
 
@@ -51,7 +52,8 @@ bool HasFoil(const Assembly& assembly, int body) {
 std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
   auto assembly = std::make_unique<Assembly>();
   assembly->owner = owner;
-  if (!ReadMedium(m, &assembly->medium) || !CheckInstancesUsed(m)) return nullptr;
+  if (!CheckReferences(m) || !ReadMedium(m, &assembly->medium) || !CheckInstancesUsed(m))
+    return nullptr;
   if (!ReadFoils(m, assembly->medium, &assembly->foils)) return nullptr;
   for (int body = 1; body < m->nbody; ++body) {
     int instance = m->body_plugin[body];

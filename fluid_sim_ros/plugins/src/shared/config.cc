@@ -35,6 +35,10 @@ bool ParseNumber(const std::string& word, mjtNum* out) {
 
 std::string BodyTitle(const mjModel* m, int body) { return Title(m, mjOBJ_BODY, "body ", body); }
 
+std::string ActuatorTitle(const mjModel* m, int actuator) {
+  return Title(m, mjOBJ_ACTUATOR, "actuator ", actuator);
+}
+
 std::string InstanceTitle(const mjModel* m, int instance) {
   return Title(m, mjOBJ_PLUGIN, "instance ", instance);
 }

@@ -57,6 +57,9 @@ bool ParseNumber(const std::string& word, mjtNum* out);
 // "body 'name'" (or its number when it has no name).
 std::string BodyTitle(const mjModel* m, int body);
 
+// "actuator 'name'" (or its number when it has no name).
+std::string ActuatorTitle(const mjModel* m, int actuator);
+
 // "instance 'name'" (or its number when it has no name).
 std::string InstanceTitle(const mjModel* m, int instance);
 

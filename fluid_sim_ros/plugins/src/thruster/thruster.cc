@@ -7,6 +7,7 @@
 #include "body/stock_terms.h"
 #include "shared/config.h"
 #include "shared/point_motion.h"
+#include "shared/references.h"
 #include "shared/spatial.h"
 
 namespace fluid_sim {
@@ -107,7 +108,7 @@ Thruster* Stored(const mjData* d, int instance) {
 int Init(const mjModel* m, mjData* d, int instance) {
   d->plugin_data[instance] = 0;
   auto thruster = std::make_unique<Thruster>();
-  if (!ReadThruster(m, instance, thruster.get())) return -1;
+  if (!CheckReferences(m) || !ReadThruster(m, instance, thruster.get())) return -1;
   d->plugin_data[instance] = reinterpret_cast<uintptr_t>(thruster.release());
   return 0;
 }

@@ -12,11 +12,6 @@ namespace {
 
 constexpr mjtNum kAligned = 1e-6;  // allowed error of a gear's length and direction
 
-std::string ActuatorTitle(const mjModel* m, int actuator) {
-  const char* name = mj_id2name(m, mjOBJ_ACTUATOR, actuator);
-  return "actuator " + (name && name[0] ? "'" + std::string(name) + "'" : std::to_string(actuator));
-}
-
 const mjtNum* Gear(const mjModel* m, int actuator) {
   return m->actuator_gear + 6 * m->actuator_outadr[actuator];
 }
@@ -35,7 +30,12 @@ bool FindActuators(const mjModel* m, int instance, Thruster* out) {
     const mjtNum pull = mju_norm3(force), turn = mju_norm3(torque);
     const bool unit = std::abs(pull + turn - 1) < kAligned && pull * turn == 0;
     int* slot = pull > 0 ? &out->thrust : &out->torque;
-    if (!unit || *slot >= 0) {
+    if (unit && *slot >= 0) {
+      return config.Fail(
+          "its instance drives another actuator of this kind already; give each thruster an "
+          "<instance> of its own in <extension>");
+    }
+    if (!unit) {
       return config.Fail(
           "wrong gear; allowed: one actuator with a unit force axis (gear=\"0 0 1 0 0 0\": thrust) "
           "and at most one with the same torque axis (gear=\"0 0 0 0 0 1\": reaction torque)");
