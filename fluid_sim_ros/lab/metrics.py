@@ -4,17 +4,38 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fluid_sim_ros.lab.motion_errors import attitude_error, position_error, regime, regime_error
-from fluid_sim_ros.lab.problems.problem import VELOCITY, Problem, Rung
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.lab.motion_errors import angles, distances, regime, regime_error
+from fluid_sim_ros.lab.problems.body_watch import VELOCITY
+from fluid_sim_ros.lab.problems.problem import Problem, Rung
 from fluid_sim_ros.physics.arrays import Array
 
-Metric = Callable[[Array, Array], float]  # of states and reference states, shape (n, vehicles, 13)
+Metric = Callable[[Array, Array], float]  # of states and reference states, shape (n, bodies, 13)
 
 METRICS = ('pose', 'position', 'attitude', 'velocity', 'regime')
 #: A turn below this is not measured against its own size [rad].
 _LEAST_TURN = 0.1
 #: Nor is a speed [m/s].
 _LEAST_SPEED = 1e-3
+
+
+def check_metric(name: str) -> None:
+    """
+    Refuse a metric that there is not.
+
+    Parameters
+    ----------
+    name
+        Of the metric.
+
+    Raises
+    ------
+    ConfigError
+        If it is none of METRICS.
+
+    """
+    if name not in METRICS:
+        raise ConfigError(f"metric '{name}' is not known; allowed: {listed(METRICS)}")
 
 
 def vehicle_size(rung: Rung) -> float:
@@ -45,11 +66,12 @@ def vehicle_size(rung: Rung) -> float:
 
 def metric(name: str, problem: Problem, reference: Array) -> Metric:
     """
-    Return a metric by name; each is the largest over time and vehicles.
+    Return a metric by name; each is the largest over time and over all bodies of all vehicles.
 
-    position: over the largest distance from the start, at least the vehicle's size; attitude:
-    over the largest turn from the start, at least 0.1 rad; pose: the larger of both; velocity:
-    over the largest speed; regime: of mean descent and frequency.
+    A body is measured against its own motion. position: over its largest distance from the start,
+    at least the vehicle's size; attitude: over its largest turn from the start, at least 0.1 rad;
+    pose: the larger of both; velocity: over its largest speed; regime: of the first vehicle's mean
+    descent and frequency.
 
     Parameters
     ----------
@@ -58,31 +80,31 @@ def metric(name: str, problem: Problem, reference: Array) -> Metric:
     problem
         Whose motion is judged.
     reference
-        The converged motion that sets the scales, shape (n, vehicles, 13).
+        The converged motion that sets the scales, shape (n, bodies, 13).
 
     Returns
     -------
     Metric
-        Function of states and reference states, shape (n, vehicles, 13) each; returns the relative
+        Function of states and reference states, shape (n, bodies, 13) each; returns the relative
         error [-].
 
     """
     start = reference[:1]
-    length = max(
-        float(position_error(reference, start).max()), vehicle_size(problem.rungs[problem.richest])
-    )
-    turn = max(float(attitude_error(reference, start).max()), _LEAST_TURN)
-    speed = max(float(np.linalg.norm(reference[..., VELOCITY], axis=-1).max()), _LEAST_SPEED)
+    size = vehicle_size(problem.rungs[problem.richest])
+    length = np.maximum(distances(reference, start).max(axis=0), size)
+    turn = np.maximum(angles(reference, start).max(axis=0), _LEAST_TURN)
+    speeds = np.linalg.norm(reference[..., VELOCITY], axis=-1)
+    speed = np.maximum(speeds.max(axis=0), _LEAST_SPEED)
 
     def position(states: Array, wanted: Array) -> float:
-        return float(position_error(states, wanted).max()) / length
+        return float((distances(states, wanted) / length).max())
 
     def attitude(states: Array, wanted: Array) -> float:
-        return float(attitude_error(states, wanted).max()) / turn
+        return float((angles(states, wanted) / turn).max())
 
     def velocity(states: Array, wanted: Array) -> float:
         apart = np.linalg.norm(states[..., VELOCITY] - wanted[..., VELOCITY], axis=-1)
-        return float(apart.max()) / speed
+        return float((apart / speed).max())
 
     def same_regime(states: Array, wanted: Array) -> float:
         return regime_error(regime(problem.times, states), regime(problem.times, wanted))

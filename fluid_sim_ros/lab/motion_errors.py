@@ -5,15 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from fluid_sim_ros.lab.problems.problem import (
-    OMEGA,
-    POSITION,
-    QUATERNION,
-    VELOCITY,
-    Problem,
-    Trajectory,
-    run_rung,
-)
+from fluid_sim_ros.lab.problems.body_watch import OMEGA, POSITION, QUATERNION, VELOCITY
+from fluid_sim_ros.lab.problems.problem import Problem, Trajectory, run_rung
 from fluid_sim_ros.physics.arrays import Array
 
 #: Added to every velocity at the start to see whether it grows [m/s], [rad/s].
@@ -26,12 +19,12 @@ SURE_GROWTH = 1e6
 
 def position_error(states: Array, reference: Array) -> Array:
     """
-    Return the distance of the vehicle that is farthest off.
+    Return the distance of the body that is farthest off.
 
     Parameters
     ----------
     states, reference
-        Two motions, world positions in columns 0 to 2 [m], shape (n, vehicles, 13).
+        Two motions, world positions in columns 0 to 2 [m], shape (n, bodies, 13).
 
     Returns
     -------
@@ -39,20 +32,17 @@ def position_error(states: Array, reference: Array) -> Array:
         [m], shape (n,).
 
     """
-    apart = np.linalg.norm(states[..., POSITION] - reference[..., POSITION], axis=-1)
-    return np.asarray(apart.max(axis=-1))
+    return np.asarray(distances(states, reference).max(axis=-1))
 
 
 def attitude_error(states: Array, reference: Array) -> Array:
     """
-    Return the angle between the attitudes of the vehicle that is farthest off.
-
-    2 atan2(|q_v|, |q_w|) of q_ref^-1 q: no floor at 1e-8, as the trace of the matrix has.
+    Return the angle between the attitudes of the body that is farthest off.
 
     Parameters
     ----------
     states, reference
-        Two motions, quaternions (w, x, y, z) in columns 3 to 6, shape (n, vehicles, 13).
+        Two motions, quaternions (w, x, y, z) in columns 3 to 6, shape (n, bodies, 13).
 
     Returns
     -------
@@ -60,9 +50,49 @@ def attitude_error(states: Array, reference: Array) -> Array:
         [rad], from 0 to pi, shape (n,).
 
     """
+    return np.asarray(angles(states, reference).max(axis=-1))
+
+
+def distances(states: Array, reference: Array) -> Array:
+    """
+    Return how far each body is from where it should be.
+
+    Parameters
+    ----------
+    states, reference
+        Two motions, world positions in columns 0 to 2 [m], shape (n, bodies, 13); a reference of
+        one time, shape (1, bodies, 13), stands for all.
+
+    Returns
+    -------
+    Array
+        [m], shape (n, bodies).
+
+    """
+    return np.asarray(np.linalg.norm(states[..., POSITION] - reference[..., POSITION], axis=-1))
+
+
+def angles(states: Array, reference: Array) -> Array:
+    """
+    Return the angle between the attitude that each body has and the one that it should have.
+
+    2 atan2(|q_v|, |q_w|) of q_ref^-1 q: no floor at 1e-8, as the trace of the matrix has.
+
+    Parameters
+    ----------
+    states, reference
+        Two motions, quaternions (w, x, y, z) in columns 3 to 6, shape (n, bodies, 13); a
+        reference of one time, shape (1, bodies, 13), stands for all.
+
+    Returns
+    -------
+    Array
+        [rad], from 0 to pi, shape (n, bodies).
+
+    """
     q, r = np.broadcast_arrays(states[..., QUATERNION], reference[..., QUATERNION])
     turn = _rotation(r).inv() * _rotation(q)
-    return np.asarray(turn.magnitude().reshape(q.shape[:-1]).max(axis=-1))
+    return np.asarray(turn.magnitude().reshape(q.shape[:-1]))
 
 
 def _rotation(quat_wxyz: Array) -> Rotation:
@@ -100,7 +130,7 @@ def errors(problem: Problem, trajectory: Trajectory, reference: Array) -> dict[s
     trajectory
         The run.
     reference
-        States at the same times, shape (n, vehicles, 13).
+        States at the same times, shape (n, bodies, 13).
 
     Returns
     -------
@@ -136,7 +166,7 @@ def regime(times: Array, states: Array) -> Regime:
     times
         Evenly spaced [s], shape (n,).
     states
-        Motion at these times, shape (n, vehicles, 13).
+        Motion at these times, shape (n, bodies, 13).
 
     Returns
     -------

@@ -1,7 +1,6 @@
 """The advisor: cheap enough, accurate enough, verified, and written into the scene."""
 
 import json
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -13,13 +12,11 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advisor.advice import settings, snippet, verify
 from fluid_sim_ros.lab.advisor.advise import advise
 from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
-from fluid_sim_ros.lab.advisor.manoeuvre import judged_part
 from fluid_sim_ros.lab.advisor.reference import find_reference
 from fluid_sim_ros.lab.metrics import METRICS, metric
 from fluid_sim_ros.lab.problems.catalogue import problem
 from fluid_sim_ros.lab.problems.from_scene import of_scene
 from fluid_sim_ros.scene import scene_names
-from fluid_sim_ros.schema.scene import ScheduledEvent
 
 STATED = """# a scene of mine
 model: sphere
@@ -56,13 +53,6 @@ def test_a_smaller_tolerance_costs_more(sphere):
     finer = advise('sphere', 1e-7, duration=2.0)
     assert finer['choice']['integrator'] == 'RK4'
     assert finer['choice']['cpu_us_per_s'] > sphere['choice']['cpu_us_per_s']
-
-
-def test_a_poor_model_is_taken_where_it_is_good_enough():
-    """A quadrotor that hovers for a while does not feel the air."""
-    calm = replace(Scene.load('quadrotor'), schedule=())
-    assert advise(calm, 0.01, duration=1.0)['choice']['rung'] == 'none'
-    assert advise('ellipsoid', 0.01, duration=2.0)['choice']['rung'] == 'scene'
 
 
 def test_what_is_missing_is_said():
@@ -166,34 +156,6 @@ def test_a_budget_that_is_too_small_is_said():
     assert any('time budget' in row['why'] for row in found['not_tried'])
     assert found['choice'] is None
     assert '--budget' in found['missing']
-
-
-def test_a_manoeuvre_is_judged_until_it_touches_the_ground():
-    case = of_scene('x500', 12.0)
-    found = judged_part(case, 0.002)
-    assert found.duration == pytest.approx(11.2)
-    assert 'touches the ground at 11.2' in found.note
-    assert judged_part(of_scene('sphere', 1.0), 0.002) == (1.0, '')
-
-
-def test_what_the_schedule_does_later_is_named():
-    event = ScheduledEvent(at=11.5, wind=[0, 0, 0])
-    scene = Scene.load('x500')
-    scene = replace(scene, schedule=(*scene.schedule, event))
-    assert judged_part(of_scene(scene, 12.0), 0.002).note.endswith(
-        'without what the schedule changes at 11.5 s'
-    )
-
-
-def test_a_vehicle_that_rests_on_the_ground_is_refused():
-    with pytest.raises(ConfigError, match=r'rests on the ground throughout.*: x500, x500_turb'):
-        advise('x500_ground', 0.01, duration=1.0)
-
-
-def test_a_vehicle_that_leaves_the_ground_is_judged():
-    event = ScheduledEvent(at=0.5, thrust={'x500': [6.5] * 4})
-    scene = replace(Scene.load('x500_ground'), schedule=(event,))
-    assert judged_part(of_scene(scene, 1.5), 0.002) == (1.5, '')
 
 
 def test_a_sensitive_motion_is_compared_point_by_point_as_long_as_that_works():

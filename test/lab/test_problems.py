@@ -3,10 +3,12 @@
 from dataclasses import replace
 from itertools import pairwise
 
+import mujoco
 import numpy as np
 import pytest
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.lab.metrics import metric
 from fluid_sim_ros.lab.motion_errors import (
     attitude_error,
     errors,
@@ -14,9 +16,10 @@ from fluid_sim_ros.lab.motion_errors import (
     regime,
     sensitivity,
 )
+from fluid_sim_ros.lab.problems.body_watch import QUATERNION
 from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
 from fluid_sim_ros.lab.problems.from_scene import of_scene
-from fluid_sim_ros.lab.problems.problem import QUATERNION, fits, run_rung
+from fluid_sim_ros.lab.problems.problem import fits, run_rung
 
 # the quasi-steady plate differs from the ellipsoid's drag by its shadow: a model error
 OF_SCENES = ['swimmer', 'quad_in_turbulence']
@@ -40,7 +43,7 @@ def test_a_poorer_model_does_not(name):
     reference = case.reference(case.times)
     for rung in list(case.rungs)[:-1]:
         found = errors(case, run_rung(case, case.rung(rung), 'RK4', 2e-3), reference)
-        assert found[f'{case.judged_by}_max'] > 1e-5
+        assert found[f'{case.discretised_by}_max'] > 1e-5
 
 
 @pytest.mark.parametrize('name', OF_SCENES)
@@ -110,3 +113,36 @@ def test_an_unknown_name_is_refused():
         problem('honey')
     with pytest.raises(ConfigError, match=r"rung 'honey' is not known; it has: none, inertia"):
         problem('stokes').rung('honey')
+
+
+def test_every_body_of_a_vehicle_is_judged():
+    """A fin or a link that is off counts, though the base is where it should be."""
+    case = of_scene('fish', 1.0)
+    states = run_rung(case, case.rungs['scene'], 'RK4', 2e-3).states
+    simulation = case.rungs['scene'].simulation('RK4', 2e-3)
+    links = np.count_nonzero(simulation.model.body_jntnum) - 1
+    assert states.shape[1] == 1 + links > 2
+    # the base as it was always observed
+    np.testing.assert_array_equal(states[0, 0], simulation.observe(forces=False)[0, :13])
+    simulation.step(250)
+    mujoco.mj_kinematics(simulation.model, simulation.data)
+    moved = [b for b in range(1, simulation.model.nbody) if simulation.model.body_jntnum[b]]
+    np.testing.assert_array_equal(states[5, :, :3], simulation.data.xpos[moved])
+    off = states.copy()
+    off[3, -1, QUATERNION] = np.roll(off[3, -1, QUATERNION], 1)  # the tail alone, at one time
+    judge = metric('pose', case, states)
+    assert judge(states, states) == 0
+    assert judge(off, states) > 1
+    assert metric('position', case, states)(off, states) == 0
+
+
+def test_a_body_is_measured_against_its_own_motion():
+    """A rotor that turns fast does not make 1 % of the hull's attitude a large angle."""
+    case = of_scene('ellipsoid', 1.0)
+    states = np.zeros((11, 2, 13))
+    states[..., 3] = 1
+    turn = np.linspace(0, np.pi, 11)
+    states[:, 1, 3], states[:, 1, 4] = np.cos(turn / 2), np.sin(turn / 2)
+    off = states.copy()
+    off[-1, 0, 3:5] = np.cos(0.005), np.sin(0.005)  # the hull by 0.01 rad
+    assert metric('attitude', case, states)(off, states) == pytest.approx(0.1)

@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from fluid_sim_ros.lab.advisor.advise import scene_problem
+from fluid_sim_ros.lab.manoeuvre import judged
 from fluid_sim_ros.lab.metrics import metric
 from fluid_sim_ros.lab.problems.problem import run_rung
 from fluid_sim_ros.scene import Scene
@@ -115,7 +116,8 @@ def verify(scene: str | Scene, advice: dict[str, Any]) -> dict[str, Any]:
 
     """
     choice = advice['choice']
-    problem = scene_problem(scene, advice['duration_s'], advice['rate_hz'])
+    asked = advice.get('asked_duration_s', advice['duration_s'])
+    problem = judged(scene_problem(scene, asked, advice['rate_hz']))
     rungs = list(problem.rungs)
     richer = rungs[min(rungs.index(choice['rung']) + 1, len(rungs) - 1)]
     chosen = run_rung(

@@ -5,14 +5,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
-from fluid_sim_ros.lab.advisor.manoeuvre import judged_part
+from fluid_sim_ros.lab.advisor.limit import with_limit
 from fluid_sim_ros.lab.advisor.reference import Reference, find_reference
-from fluid_sim_ros.lab.advisor.search import LADDER, Candidate, search, with_limit
+from fluid_sim_ros.lab.advisor.search import LADDER, Candidate, search
 from fluid_sim_ros.lab.charts.cost import Curve, StepCost, step_costs
 from fluid_sim_ros.lab.charts.pareto import tie
-from fluid_sim_ros.lab.metrics import METRICS
+from fluid_sim_ros.lab.manoeuvre import first_timestep, judged
+from fluid_sim_ros.lab.metrics import check_metric
 from fluid_sim_ros.lab.problems.from_scene import of_scene
 from fluid_sim_ros.lab.problems.problem import Problem, Setting, fits
 from fluid_sim_ros.lab.progress import Report, silent
@@ -74,12 +75,9 @@ def advise(
 
     """
     _check(tolerance, metric_name, rate, budget)
-    problem = scene_problem(scene, duration, rate)
-    own = float(problem.rungs[problem.richest].scene.compile().model.opt.timestep)
-    first = max((h for h in problem.timesteps if h <= own), default=problem.timesteps[-1])
-    judged = judged_part(problem, first)
-    problem = replace(problem, duration=judged.duration)
+    problem = judged(scene_problem(scene, duration, rate))
     budgeted = BudgetedRuns(problem, budget)
+    first = first_timestep(problem)
     reference = find_reference(budgeted, first, tolerance, metric_name, report)
     candidates: list[Candidate] = []
     refused: list[dict[str, Any]] = []
@@ -88,7 +86,10 @@ def advise(
     baseline = _baseline(problem, candidates)
     costs = _costs(problem, [each.setting for each in candidates] + [baseline], report)
     ranked = _ranked(candidates, costs, list(problem.rungs))
-    ranked[:2] = [with_limit(budgeted, reference, each) for each in ranked[:2]]
+    for place, each in enumerate(ranked):
+        report(f'{problem.name}: limits', place, len(ranked))
+        ranked[place] = with_limit(budgeted, reference, each)
+    report(f'{problem.name}: limits', len(ranked), len(ranked))
     described = [_described(each, costs) for each in ranked]
     its_cost = _cost(costs, baseline)
     return {
@@ -97,7 +98,9 @@ def advise(
         'tolerance': tolerance,
         'metric': reference.metric_name,
         'duration_s': problem.duration,
-        'note': judged.note,
+        'asked_duration_s': duration,
+        'note': problem.note,
+        'excitation': problem.excitation,
         'rate_hz': rate,
         'reference': {
             'integrator': reference.setting.integrator,
@@ -124,8 +127,7 @@ def advise(
 def _check(tolerance: float, metric_name: str, rate: float, budget: float) -> None:
     if not 0 < tolerance < 1:
         raise ConfigError(f'tolerance {tolerance:g}: must be above 0 and below 1 (0.01 is 1 %)')
-    if metric_name not in METRICS:
-        raise ConfigError(f"metric '{metric_name}' is not known; allowed: {listed(METRICS)}")
+    check_metric(metric_name)
     for name, value, unit in (('rate', rate, 'Hz'), ('budget', budget, 's')):
         if not 0 < value < math.inf:
             raise ConfigError(f'{name} {value:g} {unit}: must be finite and above 0')

@@ -35,6 +35,11 @@ class BudgetedRuns:
         self._end = time.perf_counter() + budget
         self._pace = 0.0  # slowest evaluation yet [s]
 
+    @property
+    def left(self) -> float:
+        """What is left of the budget [s]."""
+        return max(0.0, self._end - time.perf_counter())
+
     def run(self, setting: Setting, share: float = 1.0) -> Trajectory | None:
         """
         Return the run of a setting, made now or earlier.

@@ -2,12 +2,13 @@
 
 import itertools
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
+from fluid_sim_ros.lab.advisor.envelope import Envelope
 from fluid_sim_ros.lab.advisor.reference import Reference
-from fluid_sim_ros.lab.problems.problem import Setting, fits
+from fluid_sim_ros.lab.problems.problem import Setting
 from fluid_sim_ros.lab.progress import Report
 
 #: Timesteps tried: 1, 2, 5 times powers of ten [s].
@@ -25,8 +26,8 @@ class Candidate:
 
     setting: Setting
     error: float
-    fails_at: float | None  # smallest timestep tried above at which the run is lost [s]
-    tried_to: float = 0.0  # largest timestep tried [s]
+    fails_at: float | None = None  # limit of stability [s]
+    tried_to: float = 0.0  # largest timestep that is known to last [s]
 
 
 def search(
@@ -60,7 +61,10 @@ def search(
     problem = budgeted.problem
     found: list[Candidate] = []
     refused = []
-    rungs = [rung for rung in problem.rungs if _worthwhile(budgeted, reference, tolerance, rung)]
+    beside = Envelope(budgeted, reference)
+    rungs = [
+        rung for rung in problem.rungs if _worthwhile(budgeted, reference, beside, tolerance, rung)
+    ]
     pairs = list(itertools.product(rungs, _ORDER))
     for done, (rung, integrator) in enumerate(pairs):
         report(f'{problem.name}: search', done, len(pairs))
@@ -74,7 +78,13 @@ def search(
     return found, refused
 
 
-def _worthwhile(budgeted: BudgetedRuns, reference: Reference, tolerance: float, rung: str) -> bool:
+def _worthwhile(
+    budgeted: BudgetedRuns,
+    reference: Reference,
+    beside: Envelope,
+    tolerance: float,
+    rung: str,
+) -> bool:
     """Return whether a rung's own error, without that of the timestep, is within the tolerance."""
     if rung == budgeted.problem.richest:
         return True
@@ -86,7 +96,11 @@ def _worthwhile(budgeted: BudgetedRuns, reference: Reference, tolerance: float, 
     if error > tolerance:
         own = f'is {error:.2g}' if math.isfinite(error) else f'cannot be told: {trajectory.fault}'
         budgeted.leave_out(rung, '', None, f"the model's own error {own}")
-    return error <= tolerance
+        return False
+    why = beside.fault(rung, tolerance)
+    if why:
+        budgeted.leave_out(rung, '', None, why)
+    return not why
 
 
 def _largest_step(
@@ -100,7 +114,6 @@ def _largest_step(
     evaluations.
     """
     timesteps = budgeted.problem.timesteps
-    fails_at: float | None = None
     held: tuple[float, float] | None = None
     errors: list[tuple[float, float]] = []  # error, timestep
     for timestep in timesteps:
@@ -118,10 +131,9 @@ def _largest_step(
         errors.append((error, timestep))
         if error > tolerance - reference.within:
             held = None
-            fails_at = timestep if error >= 1 else fails_at
         elif held is not None or timestep == timesteps[-1]:
             chosen, its_error = held or (timestep, error)
-            return Candidate(Setting(rung, integrator, chosen), its_error, fails_at), None
+            return Candidate(Setting(rung, integrator, chosen), its_error), None
         else:
             held = (timestep, error)
     if not errors:
@@ -131,44 +143,3 @@ def _largest_step(
         'rung': rung, 'integrator': integrator, 'timestep': timestep,
         'error': error if math.isfinite(error) else None,
     }  # fmt: skip
-
-
-def with_limit(budgeted: BudgetedRuns, reference: Reference, candidate: Candidate) -> Candidate:
-    """
-    Return a candidate with the timestep at which it fails.
-
-    Larger timesteps than those that fit the rate are tried, too.
-
-    Parameters
-    ----------
-    budgeted
-        Makes the runs.
-    reference
-        What they are compared with.
-    candidate
-        Whose limit is wanted.
-
-    Returns
-    -------
-    Candidate
-        With ``fails_at``, or how far was tried.
-
-    """
-    if candidate.fails_at is not None:
-        return candidate
-    problem = budgeted.problem
-    tried_to = candidate.setting.timestep
-    for timestep in reversed(LADDER):
-        setting = candidate.setting._replace(timestep=timestep)
-        fit = fits(problem.rungs[setting.rung], timestep, problem.sample)
-        if timestep <= candidate.setting.timestep or not fit:
-            continue
-        trajectory = budgeted.run(setting)
-        if trajectory is None:
-            break
-        error = reference.error(trajectory)
-        budgeted.note(setting, trajectory, error)
-        if error >= 1:
-            return replace(candidate, fails_at=timestep)
-        tried_to = timestep
-    return replace(candidate, tried_to=tried_to)

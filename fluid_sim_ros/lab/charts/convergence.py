@@ -94,7 +94,7 @@ def converged_run(runs_of: RunCache, rung: str) -> Converged:
     for timestep in finer:
         fine = runs_of(Setting(rung, 'RK4', timestep))
         if not (fine.fault or coarse.fault):
-            apart = judged_error(problem, coarse.states, fine.states, early(problem))
+            apart = discretisation_error(problem, coarse.states, fine.states, early(problem))
             found = Converged(fine.states, apart)
             if apart < _CONVERGED:
                 break
@@ -120,26 +120,28 @@ def early(problem: Problem) -> int:
     return max(1, round(EARLY * (len(problem.times) - 1)))
 
 
-def judged_error(problem: Problem, states: Array, reference: Array, index: int = -1) -> float:
+def discretisation_error(
+    problem: Problem, states: Array, reference: Array, index: int = -1
+) -> float:
     """
-    Return the error that the problem is judged by, by default at the end.
+    Return the error by which convergence is judged, by default at the end.
 
     Parameters
     ----------
     problem
         Says which error counts: ``position_m`` or ``attitude_rad``.
     states, reference
-        Two motions at the problem's times, shape (n, vehicles, 13).
+        Two motions at the problem's times, shape (n, bodies, 13).
     index
         Which of the times.
 
     Returns
     -------
     float
-        Largest error over the vehicles [m] or [rad].
+        Largest error over the bodies [m] or [rad].
 
     """
-    norm = attitude_error if problem.judged_by == 'attitude_rad' else position_error
+    norm = attitude_error if problem.discretised_by == 'attitude_rad' else position_error
     return float(norm(states, reference)[index])
 
 

@@ -13,19 +13,15 @@ from fluid_sim_ros.lab.charts.convergence import (
     Converged,
     RunCache,
     converged_run,
+    discretisation_error,
     early,
-    judged_error,
     orders,
 )
 from fluid_sim_ros.lab.charts.cost import ROUNDS, Curve, StepCost, step_costs
 from fluid_sim_ros.lab.charts.pareto import mark_front
-from fluid_sim_ros.lab.motion_errors import (
-    Sensitivity,
-    errors,
-    regime,
-    regime_error,
-    sensitivity,
-)
+from fluid_sim_ros.lab.manoeuvre import judged
+from fluid_sim_ros.lab.metrics import METRICS, Metric, check_metric, metric
+from fluid_sim_ros.lab.motion_errors import Sensitivity, errors, sensitivity
 from fluid_sim_ros.lab.parallel import run_parallel
 from fluid_sim_ros.lab.problems.problem import (
     INTEGRATORS,
@@ -46,6 +42,7 @@ def measure(
     *,
     integrators: Sequence[str] = INTEGRATORS,
     timesteps: Sequence[float] = (),
+    metric_name: str = 'pose',
     rounds: int = ROUNDS,
     report: Report = silent,
 ) -> dict[str, Any]:
@@ -65,6 +62,9 @@ def measure(
         Names of integrators, in any case.
     timesteps
         [s]; empty: the problem's own.
+    metric_name
+        One of METRICS, by which rungs and points are judged; a chaotic motion is judged by
+        ``regime``.
     rounds
         Timed bursts of steps per curve.
     report
@@ -80,17 +80,20 @@ def measure(
     Raises
     ------
     ConfigError
-        For an unknown integrator, or a timestep that is not above 0 or does not divide the
-        problem's sample.
+        For an unknown integrator or metric, or a timestep that is not above 0 or does not divide
+        the problem's sample.
 
     """
     if timesteps:
         for timestep in timesteps:
             RunSettings.checked(timestep=timestep)
         problem = replace(problem, timesteps=tuple(sorted(timesteps, reverse=True)))
+    check_metric(metric_name)
     settings = _settings(problem, integrators)
     for timestep in problem.timesteps:
         whole_steps(problem.sample, timestep, f'{problem.name}: sample')
+    if problem.reference is None:
+        problem = judged(problem)
     runs_of = RunCache(problem)
     runs = run_parallel(
         lambda rung: converged_run(runs_of, rung),
@@ -111,14 +114,13 @@ def measure(
         nudged = beside.submit(sensitivity, problem, 'RK4', finest.timestep, runs_of(finest))
         run_parallel(runs_of, longest_first, what, report)
         chaos = nudged.result()
-    points = []
-    for setting in settings:
-        own = converged[setting.rung].states
-        trajectory = runs_of(setting)
-        alone = _errors(problem, trajectory, reference, own, chaotic=chaos.chaotic)
-        points.append(_point(setting, trajectory) | alone)
-    judged = 'regime' if chaos.chaotic else problem.judged_by
-    result = _described(problem, converged, reference, chaos, judged)
+    judge = _Judge(problem, reference, 'regime' if chaos.chaotic else metric_name)
+    points = [
+        _point(setting, runs_of(setting))
+        | judge.errors(runs_of(setting), converged[setting.rung].states)
+        for setting in settings
+    ]
+    result = _described(judge, converged, chaos)
     result |= {
         'orders': orders(points, {name: run.within for name, run in converged.items()}),
         'points': points,
@@ -160,6 +162,8 @@ def time_again(
     problem = replace(problem, timesteps=tuple(steps))
     for point in result['points']:
         problem.rung(point['rung'])
+    if problem.reference is None:
+        problem = judged(problem)
     return _timed(copy.deepcopy(result), problem, rounds, report)
 
 
@@ -183,22 +187,59 @@ def _timed(
     }
 
 
+class _Judge:
+    """Compares runs with a problem's reference."""
+
+    def __init__(self, problem: Problem, reference: Array, name: str) -> None:
+        self.problem = problem
+        self.name = name
+        self._reference = reference
+        names = ('regime',) if name == 'regime' else METRICS[:-1]
+        self._metrics: dict[str, Metric] = {
+            each: metric(each, problem, reference) for each in names
+        }
+
+    def model_error(self, run: Converged) -> float | None:
+        """Return a rung's own error: what remains when the timestep is no matter."""
+        if run.states is None:
+            return None
+        return self._metrics[self.name](run.states, self._reference)
+
+    def errors(self, trajectory: Trajectory, own: Array | None) -> dict[str, Any]:
+        """Return the errors against the reference, and that of the timestep alone."""
+        if trajectory.fault:
+            return {'error': None, 'discretisation': None}
+        found = errors(self.problem, trajectory, self._reference)
+        for name, judge in self._metrics.items():
+            found[name] = judge(trajectory.states, self._reference)
+        alone = None
+        if own is not None and self.name != 'regime':
+            index = early(self.problem)
+            alone = discretisation_error(self.problem, trajectory.states, own, index)
+        return {'error': found, 'discretisation': alone}
+
+
 def _described(
-    problem: Problem, converged: dict[str, Converged], reference: Array, chaos: Sensitivity,
-    judged: str,
-) -> dict[str, Any]:  # fmt: skip
+    judge: _Judge, converged: dict[str, Converged], chaos: Sensitivity
+) -> dict[str, Any]:
     """Return what a chart says of its problem."""
+    problem = judge.problem
     return {
         'problem': problem.name,
         'title': problem.title,
         'stands_for': problem.stands_for,
         'duration_s': problem.duration,
         'discretisation_at_s': float(problem.times[early(problem)]),
+        'discretised_by': problem.discretised_by,
         'reference': problem.reference_kind,
-        'judged_by': judged,
+        'note': problem.note,
+        'judged_by': judge.name,
         'sensitivity': chaos.as_dict(),
         'rungs': {
-            name: _rung(problem, run, reference, chaotic=chaos.chaotic)
+            name: {
+                'model_error': judge.model_error(run),
+                'converged_within': None if run.states is None else run.within,
+            }
             for name, run in converged.items()
         },
     }
@@ -207,21 +248,6 @@ def _described(
 def _settings(problem: Problem, integrators: Sequence[str]) -> list[Setting]:
     names = known_integrators(integrators)
     return [Setting(*row) for row in itertools.product(problem.rungs, names, problem.timesteps)]
-
-
-def _rung(problem: Problem, run: Converged, reference: Array, chaotic: bool) -> dict[str, Any]:
-    """Return a rung's model error: what remains when the timestep is no matter."""
-    if run.states is None:
-        return {'model_error': None, 'converged_within': None}
-    model = judged_error(problem, run.states, reference)
-    if chaotic:
-        model = _regime_apart(problem, run.states, reference)
-    return {'model_error': model, 'converged_within': run.within}
-
-
-def _regime_apart(problem: Problem, states: Array, reference: Array) -> float:
-    times = problem.times
-    return regime_error(regime(times, states), regime(times, reference))
 
 
 def _point(setting: Setting, trajectory: Trajectory) -> dict[str, Any]:
@@ -233,20 +259,6 @@ def _point(setting: Setting, trajectory: Trajectory) -> dict[str, Any]:
         'fault': trajectory.fault,
         'failed_at_s': trajectory.failed_at,
     }
-
-
-def _errors(
-    problem: Problem, trajectory: Trajectory, reference: Array, own: Array | None, chaotic: bool
-) -> dict[str, Any]:
-    """Return the errors against the reference, and those of the timestep alone."""
-    if trajectory.fault:
-        return {'error': None, 'discretisation': None}
-    found = errors(problem, trajectory, reference)
-    if chaotic:
-        found['regime'] = _regime_apart(problem, trajectory.states, reference)
-        return {'error': found, 'discretisation': None}
-    alone = None if own is None else judged_error(problem, trajectory.states, own, early(problem))
-    return {'error': found, 'discretisation': alone}
 
 
 def _costs(

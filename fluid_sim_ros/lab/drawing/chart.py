@@ -15,7 +15,12 @@ from fluid_sim_ros.lab.drawing.colors import INTEGRATOR_COLORS, rung_colors
 from fluid_sim_ros.lab.drawing.style import MARKERS, STYLE, save_figure
 
 _REAL_TIME = 1e6  # [us per simulated second]
+#: What is drawn upward; the errors at the end are those of charts of earlier releases.
 _UNITS = {
+    'pose': 'pose error, largest over the run [-]',
+    'position': 'position error, largest over the run [-]',
+    'attitude': 'attitude error, largest over the run [-]',
+    'velocity': 'velocity error, largest over the run [-]',
     'position_m': 'position error at the end [m]',
     'attitude_rad': 'attitude error at the end [rad]',
     'regime': 'error of mean descent or frequency [-]',
@@ -57,6 +62,8 @@ def draw(result: dict[str, Any], path: Path) -> Path:
         note = f'{result["stands_for"]}. Reference: {result["reference"]}.'
         if chaotic:
             note += ' Chaotic: judged by its regime, not point by point.'
+        if result.get('note'):
+            note += f' {result["note"]}.'
         note += _about_costs(result)
         note = '\n'.join(textwrap.wrap(note, 90 * columns))
         figure.supxlabel(note, fontsize=8, color='#555555')
@@ -149,7 +156,8 @@ def _timestep_alone(axes: Axes, result: dict[str, Any]) -> None:
             label='converged to here',
         )  # fmt: skip
     _failures(axes, points, lambda p: INTEGRATOR_COLORS[p['integrator']])
-    unit = 'rad' if result['judged_by'] == 'attitude_rad' else 'm'
+    by = result.get('discretised_by', result['judged_by'])
+    unit = 'rad' if by == 'attitude_rad' else 'm'
     _frame(
         axes, f'error by the timestep alone [{unit}]',
         f'"{richest}" against its converged run, after {result["discretisation_at_s"]:g} s',

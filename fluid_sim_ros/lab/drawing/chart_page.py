@@ -38,7 +38,7 @@ def write_chart_page(results: Sequence[dict[str, Any]], path: Path) -> Path:
 def _chart(result: dict[str, Any]) -> dict[str, Any]:
     by, colors = result['judged_by'], rung_colors(list(result['rungs']))
     total = _plot(
-        f'error against the reference at the end: {by}', result['points'],
+        f'error against the reference: {by}', result['points'],
         lambda p: (f'{p["rung"]}, {p["integrator"]}', colors[p['rung']]),
         lambda p: judged(p, by),
     )  # fmt: skip
@@ -59,6 +59,8 @@ def _chart(result: dict[str, Any]) -> dict[str, Any]:
             )
         )
     about = f'{result["stands_for"]}. {result["duration_s"]:g} s; reference: {result["reference"]}'
+    if result.get('note'):
+        about += f'. {result["note"]}'
     return {'title': result['title'], 'about': about, 'plots': plots}
 
 

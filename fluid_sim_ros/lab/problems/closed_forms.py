@@ -8,15 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import ellipj, ellipk
 
+from fluid_sim_ros.lab.problems.body_watch import POSITION, QUATERNION, STATE_WIDTH
 from fluid_sim_ros.lab.problems.mjcf import body_plugin, ellipsoid, free_body, text, world
-from fluid_sim_ros.lab.problems.problem import (
-    POSITION,
-    QUATERNION,
-    STATE_WIDTH,
-    TIMESTEPS,
-    Problem,
-    Rung,
-)
+from fluid_sim_ros.lab.problems.problem import TIMESTEPS, Problem, Rung
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.kappa import ellipsoid_volume
 from fluid_sim_ros.scene import Scene
@@ -248,7 +242,7 @@ def spin_down() -> Problem:
     return Problem(
         name='spin_down', title='Spinning sphere slows down in water',
         stands_for='spin-down test of a float; quadratic angular drag',
-        duration=2.0, judged_by='attitude_rad', reference=reference,
+        duration=2.0, discretised_by='attitude_rad', reference=reference,
         reference_kind='closed form',
         rungs=ellipsoid_rungs(
             'spin_down', [radius] * 3, WATER, coef=(0, 0, coefficient, 0, 0), gravity=0,

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, DivergedError
+from fluid_sim_ros.lab.problems.body_watch import BodyWatch
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
@@ -17,9 +18,6 @@ from fluid_sim_ros.step_clock import exact, whole_steps
 INTEGRATORS = ('Euler', 'RK4', 'implicit', 'implicitfast', 'discrete')
 #: Three decades of timesteps [s]; each divides a tenth of a second.
 TIMESTEPS = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001, 0.00005)
-# Columns of a state: as in physics/kirchhoff.py and in the observed rows.
-POSITION, QUATERNION, VELOCITY, OMEGA = slice(0, 3), slice(3, 7), slice(7, 10), slice(10, 13)
-STATE_WIDTH = 13
 
 
 class Rung(NamedTuple):
@@ -64,16 +62,20 @@ class Problem:
     rungs
         Models by name, poorest first; the last one is the richest.
     reference
-        States (n, vehicles, 13) at times (n,) [s] that no simulator made; None: the converged run
+        States (n, bodies, 13) at times (n,) [s] that no simulator made; None: the converged run
         of the richest rung.
     reference_kind
         ``closed form``, ``ODE (DOP853)`` or ``converged run``.
-    judged_by
-        The error that the chart shows; ``position_m`` or ``attitude_rad``.
+    discretised_by
+        Error that shows the order of convergence; ``position_m`` or ``attitude_rad``.
     invariants
         What the motion keeps, by name, from times and states, shape (n,) or (n, k).
     timesteps
         [s], largest first.
+    note
+        What a reader must know of the motion, or empty.
+    excitation
+        What moves the scene in place of its own manoeuvre, in words, or empty.
 
     """
 
@@ -84,10 +86,12 @@ class Problem:
     rungs: Mapping[str, Rung]
     reference: Callable[[Array], Array] | None = None
     reference_kind: str = 'converged run'
-    judged_by: str = 'position_m'
+    discretised_by: str = 'position_m'
     invariants: Callable[[Array, Array], dict[str, Array]] | None = None
     sample: float = 0.1
     timesteps: tuple[float, ...] = TIMESTEPS
+    note: str = ''
+    excitation: str = ''
 
     @property
     def times(self) -> Array:
@@ -144,8 +148,8 @@ class Trajectory(NamedTuple):
     """
     A run of one model.
 
-    ``states`` has shape (n, vehicles, 13); a run that the watchdog ended has fewer, and in
-    ``fault`` its line. ``warnings`` are the energy watchdog's, at the compared times.
+    ``states`` has shape (n, bodies, 13), see ``BodyWatch``; a run that the watchdog ended has
+    fewer times, and in ``fault`` its line.
     """
 
     states: Array
@@ -187,34 +191,15 @@ def run_rung(
     between = whole_steps(problem.sample, timestep, f'{problem.name}: sample')
     simulation = rung.simulation(integrator, timestep)
     simulation.data.qvel += nudge
-    states = []
+    watch, states = BodyWatch(simulation), []
     try:
         for _ in problem.times[1:]:
-            states.append(observed(simulation))
+            states.append(watch.states())
             simulation.step(between)
-        states.append(observed(simulation))
+        states.append(watch.states())
     except DivergedError as error:
         return Trajectory(np.array(states), str(error), error.time)
     return Trajectory(np.array(states))
-
-
-def observed(simulation: Simulation) -> Array:
-    """
-    Return the state of every vehicle at this step boundary.
-
-    Parameters
-    ----------
-    simulation
-        Whose vehicles.
-
-    Returns
-    -------
-    Array
-        World position [m], quaternion w x y z, velocity [m/s] and rate [rad/s] in body axes, shape
-        (vehicles, 13).
-
-    """
-    return simulation.observe(forces=False)[:, :STATE_WIDTH].copy()
 
 
 def known_integrators(names: Sequence[str]) -> list[str]:
