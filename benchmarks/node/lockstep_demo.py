@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 from benchmarks.common import arguments, write
-from fluid_sim_ros.demo.flight import Heard, fly
+from fluid_sim_ros.demo.flight import Heard, fly_demo
 
 _SECONDS = 30.0
 
@@ -32,8 +32,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for _ in range(count):
-            runs['without_log'].append(fly(folder, _SECONDS))
-            runs['with_log'].append(fly(folder, _SECONDS, folder / 'flight.mcap'))
+            runs['without_log'].append(fly_demo(folder, _SECONDS))
+            runs['with_log'].append(fly_demo(folder, _SECONDS, folder / 'flight.mcap'))
             (folder / 'flight.mcap').unlink()
     result: dict[str, object] = {'target_real_time_factor': 20}
     for kind, flights in runs.items():

@@ -75,7 +75,7 @@ class Watcher:
         force = np.linalg.norm(rows[:, nat.TOTAL][:, :3], axis=1)
         self.largest_at[force > self.largest] = simulation.time
         np.maximum(self.largest, force, out=self.largest)
-        for line in self.grids.look():
+        for line in self.grids.new_lines():
             self._progress.console.print(f'warning: {line}', markup=False, soft_wrap=True)
         now = time.perf_counter()
         if now - self._shown_at > _SHOW_PERIOD:

@@ -34,7 +34,7 @@ class Heard:
     wall: float
 
 
-def fly(out: Path, duration: float, log: Path | None = None) -> Heard:
+def fly_demo(out: Path, duration: float, log: Path | None = None) -> Heard:
     """
     Run simulator and controller to the end and return what was heard on the way.
 

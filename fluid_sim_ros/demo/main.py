@@ -8,7 +8,7 @@ from pathlib import Path
 from rich.console import Console
 
 from fluid_sim_ros.demo import plots
-from fluid_sim_ros.demo.flight import fly
+from fluid_sim_ros.demo.flight import fly_demo
 from fluid_sim_ros.demo.flight_log import check_again, read_recording, still
 from fluid_sim_ros.demo.summary import summary, table, targets
 from fluid_sim_ros.errors import FluidSimError
@@ -50,7 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     log = out / 'flight.mcap'
     log.unlink(missing_ok=True)
-    heard = fly(out, options.duration, log)
+    heard = fly_demo(out, options.duration, log)
     recording = read_recording(log)
     again = check_again(log)
     picture, fault = still(log)

@@ -39,7 +39,7 @@ class GridWatch:
             self._point.ctypes.data, self._beyond.ctypes.data,
         )  # fmt: skip
 
-    def look(self) -> list[str]:
+    def new_lines(self) -> list[str]:
         """Return the lines that are new at this step boundary."""
         if self._idle:
             return []

@@ -108,7 +108,7 @@ class MarkerTopic(StateTopic):
         copies += template.copies(list(sources.values()))
         super().__init__(
             f'{vehicle.name}/markers', MARKERS, template, period, copies,
-            needs_forces=True, prepare=self._look, quality=LATCHED,
+            needs_forces=True, prepare=self._take_state, quality=LATCHED,
         )  # fmt: skip
 
     def _is_drawn(self, geom: int, base: int) -> bool:
@@ -128,7 +128,7 @@ class MarkerTopic(StateTopic):
         rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
         return marker(f'{vehicle}/geoms', geom, kind, extents.tolist(), rgba.tolist())
 
-    def _look(self) -> None:
+    def _take_state(self) -> None:
         """Take poses and forces from the present state."""
         data, row, poses = self._data, self._row, self._poses
         poses[:, :3] = data.geom_xpos[self._geoms]

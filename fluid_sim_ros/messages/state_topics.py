@@ -82,7 +82,7 @@ class StateTopics:
         for suite in self.suites.values():
             suite.reset()
 
-    def look(self) -> None:
+    def take_state(self) -> None:
         """Take the present state as the one that ``data`` speaks of."""
         self._simulation.observe(forces=False)
         self._stamp.set(self._simulation.time_ns)
@@ -90,7 +90,7 @@ class StateTopics:
 
     def data(self, topic: StateTopic) -> bytes:
         """
-        Return a topic's message at the state of the last ``look``.
+        Return a topic's message at the state of the last ``take_state``.
 
         Forces are evaluated for the first topic that needs them: what was asked for before can be
         on its way already.

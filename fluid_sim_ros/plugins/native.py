@@ -101,11 +101,13 @@ class Native:
             pointer, pointer, pointer, pointer, integer, integer, pointer,
         ]  # fmt: skip
         library.fsr_observe.restype = None
-        self.look: Callable[[int, int, int, int, int, int, int, int], None] = library.fsr_look
-        library.fsr_look.argtypes = [
+        self.raise_largest: Callable[[int, int, int, int, int, int, int, int], None] = (
+            library.fsr_raise_largest
+        )
+        library.fsr_raise_largest.argtypes = [
             pointer, pointer, pointer, pointer, integer, pointer, pointer, pointer,
         ]  # fmt: skip
-        library.fsr_look.restype = None
+        library.fsr_raise_largest.restype = None
         self.runs: Callable[..., None] = library.fsr_runs
         library.fsr_runs.argtypes = [
             *[pointer] * 4, *[integer] * 4, *[pointer] * 6,

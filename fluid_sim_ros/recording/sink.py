@@ -66,7 +66,7 @@ class RecordingSink:
         """
         tick = simulation.tick
         due = [(i, topic) for i, topic in self._topics if tick % topic.period == 0]
-        self._states.look()
+        self._states.take_state()
         messages = [(i, self._states.data(topic)) for i, topic in due]
         self.recorder.tick([message for message in messages if message[1]])
 

@@ -190,7 +190,7 @@ class Diagnostics:
             for warning in _LIMIT_WARNINGS
         }
         balance = self._simulation.energy_balance()
-        for line in self._grids.look():
+        for line in self._grids.new_lines():
             self._node.get_logger().warning(line)
         values = {
             'kinetic_energy_J': f'{balance.kinetic:.6g}',

@@ -28,9 +28,9 @@ class GraphMonitor:
         self._node = node
         self._report = report
         self.faults: tuple[str, ...] = ()
-        self._timer = node.create_timer(1.0, self.look)
+        self._timer = node.create_timer(1.0, self.read_graph)
 
-    def look(self) -> None:
+    def read_graph(self) -> None:
         """Read the graph and keep what is wrong with it."""
         node = self._node
         faults = []

@@ -175,7 +175,7 @@ class Outputs:
         if due:
             self._show_due = max(self._show_due + self._show_period, now)
         if wanted:
-            self._states.look()
+            self._states.take_state()
         for topic in wanted:
             topic.publish(self._states.data(topic.state))
 
@@ -199,7 +199,7 @@ class Outputs:
 
     def _publish(self, topics: list[Topic]) -> list[tuple[int, bytes]]:
         """Publish the present numbers; return the messages to record."""
-        self._states.look()
+        self._states.take_state()
         recorded = []
         for topic in topics:
             data = self._states.data(topic.state)

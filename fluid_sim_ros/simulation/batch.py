@@ -18,7 +18,7 @@ class BatchRuns:
 
     Nothing may change on the way: no scheduled event, no gait, no commanded wrench
     (``Simulation.next_change``). ``take`` takes up the simulation's present state as a start,
-    ``fly`` flies them all; the simulation needs ``reset`` afterwards.
+    ``run`` flies them all; the simulation needs ``reset`` afterwards.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class BatchRuns:
         self._winds[self.count] = self._model.opt.wind
         self.count += 1
 
-    def fly(self) -> None:
+    def run(self) -> None:
         """Fly the runs that were taken up; their results stand until the next call."""
         self._largest[:] = 0.0
         arrays = (

@@ -42,7 +42,7 @@ class Largest:
         self._start[:] = self._engine.observe(forces=False)[:, nat.POSITION]
         self.values[:] = 0.0
 
-    def look(self) -> Array:
+    def update(self) -> Array:
         """
         Look at the present state.
 
@@ -52,7 +52,7 @@ class Largest:
             Its rows, of which only the motion is new.
 
         """
-        return self._engine.look(*self._addresses)
+        return self._engine.raise_largest(*self._addresses)
 
 
 class Engine:
@@ -82,7 +82,7 @@ class Engine:
         library = nat.native()
         self._step = library.step
         self._observe = library.observe
-        self._look = library.look
+        self._raise_largest = library.raise_largest
         self._report = np.zeros(2)
         self._bases = np.array(bases, dtype=np.int32)
         self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
@@ -141,7 +141,7 @@ class Engine:
         self._observe(*self._observe_addresses, forces + (forces and wrenches), self._rows_address)
         return self._rows
 
-    def look(self, start: int, largest: int) -> Array:
+    def raise_largest(self, start: int, largest: int) -> Array:
         """
         Raise the largest values; see ``Largest``.
 
@@ -156,7 +156,7 @@ class Engine:
             Rows as ``observe`` returns them, of which only the motion is new.
 
         """
-        self._look(*self._observe_addresses, start, largest, self._rows_address)
+        self._raise_largest(*self._observe_addresses, start, largest, self._rows_address)
         return self._rows
 
     def energy_balance(self) -> EnergyBalance:

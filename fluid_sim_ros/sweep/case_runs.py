@@ -159,7 +159,7 @@ class CaseRunner:
                     holds.answer(simulation)
                 left = ready.steps - simulation.step_count
                 simulation.step(min(ready.period, left))
-                largest.look()
+                largest.update()
         except DivergedError as error:
             row = {'status': 'diverged', 'message': str(error)}
         row['time_s'] = simulation.time
@@ -242,7 +242,7 @@ class _Batch:
         if ready is None or ready.many is None:
             return []
         many = ready.many
-        many.fly()
+        many.run()
         for i, row in enumerate(begun):
             error = many.divergence(i)
             if error is not None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from fluid_sim_ros.demo.children import Child
-from fluid_sim_ros.demo.flight import fly
+from fluid_sim_ros.demo.flight import fly_demo
 from fluid_sim_ros.demo.flight_log import read_recording
 from fluid_sim_ros.demo.main import main
 from fluid_sim_ros.errors import FluidSimError
@@ -53,7 +53,7 @@ def test_two_runs_are_the_same_to_the_bit(tmp_path: Path) -> None:
     for name in ('a', 'b'):
         folder = tmp_path / name
         folder.mkdir()
-        fly(folder, 4.0, folder / 'flight.mcap')
+        fly_demo(folder, 4.0, folder / 'flight.mcap')
         runs.append(read_recording(folder / 'flight.mcap'))
     for field in ('odometry', 'fluid', 'thrust'):
         one, other = (getattr(run, field) for run in runs)

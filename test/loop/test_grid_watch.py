@@ -40,15 +40,15 @@ def scene(tmp_path):
 def test_each_end_is_said_once_with_the_place(scene):
     simulation = Simulation(scene('current'))
     watch = GridWatch(simulation)
-    assert watch.look() == []
+    assert watch.new_lines() == []
     simulation.step(110)
-    assert watch.look() == [
+    assert watch.new_lines() == [
         "current grid: 'drifter' at x = 2.2 m is beyond its end at 2 m: the edge value holds "
         '(t = 1.1 s)'
     ]
-    assert watch.look() == []
+    assert watch.new_lines() == []
     simulation.step(60)
-    (line,) = watch.look()
+    (line,) = watch.new_lines()
     assert line.startswith("current grid: 'drifter' at t = 1.7 s is beyond its end at 1.5 s")
     assert len(watch.lines) == 2
 
@@ -57,16 +57,16 @@ def test_only_the_fluid_that_the_vehicle_is_in_matters(scene):
     simulation = Simulation(scene('wind'))
     simulation.step(200)
     watch = GridWatch(simulation)
-    assert watch.look() == []
+    assert watch.new_lines() == []
     simulation.data.qpos[2] = 0.5
-    assert [line.split(' at ')[1][0] for line in watch.look()] == ['t', 'x', 'z']
+    assert [line.split(' at ')[1][0] for line in watch.new_lines()] == ['t', 'x', 'z']
 
 
 def test_scenes_without_a_grid_are_not_looked_at(scene):
     simulation = Simulation(scene())
     simulation.step(300)
     mujoco.mj_resetData(simulation.model, simulation.data)
-    assert GridWatch(simulation).look() == []
+    assert GridWatch(simulation).new_lines() == []
 
 
 def test_a_run_ends_with_what_was_said(scene, tmp_path, capsys):

@@ -17,7 +17,7 @@ def shown(simulation, vehicle, **settings):
     """Return the fields of a vehicle's markers, and the topic."""
     states = StateTopics(simulation, DEFAULTS | settings)
     topic = next(t for t in states.topics if t.name == f'{vehicle}/markers')
-    states.look()
+    states.take_state()
     return fields(definition(MARKERS).text, states.data(topic)), topic
 
 

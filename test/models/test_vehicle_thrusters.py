@@ -52,7 +52,7 @@ def test_joint_states_carry_the_rotor_speed(model):
     topics = state_topics.StateTopics(simulation, state_topics.DEFAULTS)
     joint_states = next(t for t in topics.topics if t.name == 'hull/joint_states')
     simulation.step(10)  # 20 ms, one and a half time constants
-    topics.look()
+    topics.take_state()
     message = read_joint_state(topics.data(joint_states))
     speed = HOVER * (1 - np.exp(-0.02 / 0.0125))
     assert message.names == ['thrust']

@@ -48,7 +48,7 @@ def test_the_states_are_those_of_the_simulation(tmp_path):
     expected = []
     for step in range(0, 105, 5):  # every 10 ms; no topic is due in between
         simulation.step(step - simulation.step_count)
-        states.look()
+        states.take_state()
         expected += [
             (f'/{t.name.lstrip("/")}', step, simulation.time_ns, states.data(t))
             for t in states.topics

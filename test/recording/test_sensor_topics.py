@@ -33,7 +33,7 @@ def test_messages_hold_the_readings(scene):
     assert sorted(topics) == TOPICS[scene]
     suite = SensorSuite(simulation, name)
     for _ in range(3):
-        states.look()
+        states.take_state()
         found = {
             key: fields(definition(topic.type).text, data)
             for key, topic in topics.items()

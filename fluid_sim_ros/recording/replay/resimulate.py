@@ -200,7 +200,7 @@ class _Repetition:
         self._advance(message)
         if self._observed != message.step:
             self._observed = message.step
-            self._topics.look()
+            self._topics.take_state()
         return self._topics.data(topic)
 
     def _advance(self, message: LogMessage) -> None:
@@ -219,7 +219,7 @@ class _Repetition:
         tick = self.simulation.tick
         if tick % self._look_every:
             return
-        self._topics.look()
+        self._topics.take_state()
         for topic in self._late:
             if tick % topic.period == 0:
                 self._topics.data(topic)

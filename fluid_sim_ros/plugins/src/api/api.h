@@ -51,7 +51,7 @@ constexpr ColumnInfo kColumns[] = {
 FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report);
 FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                          int count, int forces, double* rows);
-FSR_API void fsr_look(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
-                      int count, const double* start, double* largest, double* rows);
+FSR_API void fsr_raise_largest(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
+                               int count, const double* start, double* largest, double* rows);
 
 #endif  // FLUID_SIM_API_API_H_

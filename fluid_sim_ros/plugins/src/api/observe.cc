@@ -125,8 +125,8 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
 // Look at the motion of the base bodies: raise largest[3 * i + 0..2] to the speed [m/s], the tilt
 // [rad] and the distance [m] from start[3 * i + 0..2] of base i where these are larger (NaN is
 // not), and fill the motion of `rows`; its flow and forces stay as they are.
-FSR_API void fsr_look(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
-                      int count, const double* start, double* largest, double* rows) {
+FSR_API void fsr_raise_largest(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
+                               int count, const double* start, double* largest, double* rows) {
   ObserveMotion(m, d, scratch, bases, count, false, rows);
   for (int i = 0; i < count; ++i) {
     const double* row = rows + kRowWidth * i;

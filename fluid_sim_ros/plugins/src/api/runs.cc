@@ -8,11 +8,11 @@
 
 using namespace fluid_sim;
 
-// Fly `runs` runs of `steps` steps, each as fsr_step and fsr_look do it: from its state (of
-// mjSTATE_INTEGRATION) in `states`, in its wind of `winds` (opt.wind, which the last one leaves in
-// the model), with a look at the `count` bases every `period` steps and at the end. A run ends at
-// its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count * width]
-// at the end, largest[3 * count], which the caller has set to zero.
+// Fly `runs` runs of `steps` steps, each as fsr_step and fsr_raise_largest do it: from its state
+// (of mjSTATE_INTEGRATION) in `states`, in its wind of `winds` (opt.wind, which the last one leaves
+// in the model), with a look at the `count` bases every `period` steps and at the end. A run ends
+// at its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count *
+// width] at the end, largest[3 * count], which the caller has set to zero.
 FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, int count, int runs,
                       int steps, int period, const double* states, const double* winds, int* done,
                       double* reports, double* rows, double* largest) {
@@ -33,7 +33,8 @@ FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, 
       const int good = fsr_step(m, d, n, reports + 2 * run);
       done[run] += good;
       if (good < n) break;
-      fsr_look(m, d, scratch, bases, count, start.data(), largest + 3 * count * run, run_rows);
+      fsr_raise_largest(m, d, scratch, bases, count, start.data(), largest + 3 * count * run,
+                        run_rows);
     }
     fsr_observe(m, d, scratch, bases, count, 0, run_rows);
   }
