@@ -4,6 +4,7 @@ Errors that the package raises; each message is one line that says what is allow
 Text of files, logs and networks goes into them, and onto a terminal, by ``printable``.
 """
 
+import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from datetime import date
@@ -14,6 +15,9 @@ from typing import Any
 #: Longest piece of foreign text in a line for people, and longest line [characters]; most names
 #: of a list.
 MOST_TEXT, MOST_LINE, MOST_NAMES = 200, 2000, 50
+
+#: Least share of equal letters at which one word is taken for another: rovv and rov have 0.86.
+_SIMILAR = 0.7
 
 
 class FluidSimError(Exception):
@@ -127,6 +131,29 @@ def listed(names: Iterable[str]) -> str:
     first = [printable(name, 100) for name in islice(remaining, MOST_NAMES)]
     rest = sum(1 for _ in remaining)
     return ', '.join([*first, *([f'and {rest} more'] if rest else [])]) or '(none)'
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """
+    Return how an error goes on after a word that is not known: with the most similar known one.
+
+    Parameters
+    ----------
+    word
+        What the user wrote.
+    known
+        What would have been right.
+
+    Returns
+    -------
+    str
+        ``; did you mean 'rov'?``, or ``;`` where nothing is similar. A list of what is allowed
+        follows in the message.
+
+    """
+    written = {name.lower(): name for name in known}
+    similar = difflib.get_close_matches(word.lower(), written, n=1, cutoff=_SIMILAR)
+    return f"; did you mean '{written[similar[0]]}'?" if similar else ';'
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.lab.motion_errors import angles, distances, regime, regime_error
 from fluid_sim_ros.lab.problems.body_watch import VELOCITY
 from fluid_sim_ros.lab.problems.problem import Problem, Rung
@@ -35,7 +35,8 @@ def check_metric(name: str) -> None:
 
     """
     if name not in METRICS:
-        raise ConfigError(f"metric '{name}' is not known; allowed: {listed(METRICS)}")
+        hint = did_you_mean(name, METRICS)
+        raise ConfigError(f"metric '{name}' is not known{hint} allowed: {listed(METRICS)}")
 
 
 def vehicle_size(rung: Rung) -> float:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.physics.t200 import t200_table
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.scene.vehicle import Vehicle
@@ -132,10 +132,10 @@ def load_mapping(protocol: str, vehicle: str, name: str = '') -> tuple[Autopilot
     if path.suffix not in ('.yaml', '.yml'):
         path = folder / f'{name or f"{protocol}_{vehicle}"}.yaml'
         if not path.is_file():
-            known = listed(sorted(p.stem for p in folder.glob('*.yaml')))
+            known = sorted(p.stem for p in folder.glob('*.yaml'))
             raise ConfigError(
-                f"autopilot mapping '{path.stem}' is not known; mappings: {known}; "
-                'or give the path of one (.yaml)'
+                f"autopilot mapping '{path.stem}' is not known{did_you_mean(path.stem, known)} "
+                f'mappings: {listed(known)}; or give the path of one (.yaml)'
             )
     file = parse(AutopilotFile, read_yaml(path), path)
     if file.protocol != protocol:
@@ -242,7 +242,8 @@ def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]
     for name in driven:
         if name not in existing:
             raise ConfigError(
-                f"{path}: {kind} '{name}' is not in the vehicle; it has: {listed(existing)}"
+                f"{path}: {kind} '{name}' is not in the vehicle"
+                f'{did_you_mean(name, existing)} it has: {listed(existing)}'
             )
         if driven.count(name) > 1:
             raise ConfigError(f"{path}: {kind} '{name}' is driven by two outputs")

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.base import Name, NotNegative, Positive, Strict, Vector, parse
 from fluid_sim_ros.schema.yaml_file import read_yaml
@@ -152,7 +152,8 @@ def thrusters_of(
         _check(places, path)
     else:
         raise ConfigError(
-            f"--thrusters '{source}' is no preset; allowed: {listed(PRESETS)}, or a YAML file"
+            f"--thrusters '{source}' is no preset{did_you_mean(source, PRESETS)} "
+            f'allowed: {listed(PRESETS)}, or a YAML file'
         )
     return [_complete(place, medium) for place in places]
 

@@ -2,7 +2,7 @@
 
 import re
 
-from fluid_sim_ros.errors import listed
+from fluid_sim_ros.errors import did_you_mean, listed
 from fluid_sim_ros.plugins.attached import REMEDY
 from fluid_sim_ros.plugins.native import native
 
@@ -34,9 +34,9 @@ def load_error_line(error: Exception) -> str:
         key, plugin = unknown.groups()
         element = _ELEMENT.search(text)
         where = f"'{element[1]}': " if element else ''
-        return (
-            f"{plugin}: {where}unknown key '{key}'; it has: {listed(native().plugin_keys(plugin))}"
-        )
+        known = native().plugin_keys(plugin)
+        hint = did_you_mean(key, known)
+        return f"{plugin}: {where}unknown key '{key}'{hint} it has: {listed(known)}"
     if outside := _OUT_OF_BOUNDS.search(text):
         return f'the plugin of one {outside[1]} is not in the model: {REMEDY}'
     if 'plugin->init failed' in text:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from fluid_sim_ros.errors import listed
+from fluid_sim_ros.errors import did_you_mean, listed
 from fluid_sim_ros.recording.description import LogError, RunDescription
 from fluid_sim_ros.recording.records import MESSAGE, MESSAGE_HEAD, Chunk, decompress, records
 
@@ -117,8 +117,9 @@ class Log:
         for topic in self.topics.values():
             if topic.name == name:
                 return topic
-        names = listed(sorted(t.name for t in self.topics.values()))
-        raise LogError(f"{self.path}: no topic '{name}'; it has: {names}")
+        names = sorted(t.name for t in self.topics.values())
+        hint = did_you_mean(name, names)
+        raise LogError(f"{self.path}: no topic '{name}'{hint} it has: {listed(names)}")
 
     def description(self) -> RunDescription:
         """Return the run's description, or raise LogError."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from fluid_sim_ros.control.gait import JointWave
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import Gait
@@ -112,8 +112,8 @@ class Gaits:
         for name in gaits:
             if name not in vehicles:
                 raise ConfigError(
-                    f"{where}: gait: vehicle '{name}' is not in the scene; "
-                    f'it has: {listed(vehicles)}'
+                    f"{where}: gait: vehicle '{name}' is not in the scene"
+                    f'{did_you_mean(name, vehicles)} it has: {listed(vehicles)}'
                 )
         self._all = {name: GaitCycle(g, vehicles[name], timestep) for name, g in gaits.items()}
         self.running: tuple[str, ...] = ()

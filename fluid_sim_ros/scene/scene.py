@@ -5,7 +5,7 @@ from pathlib import Path
 
 import mujoco
 
-from fluid_sim_ros.errors import ConfigError, ModelError, listed
+from fluid_sim_ros.errors import ConfigError, ModelError, did_you_mean, listed
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.plugins.attached import dropped_plugin
 from fluid_sim_ros.resources import config_folder, models_folder
@@ -121,7 +121,8 @@ class Scene:
             return cls(name=path.stem, model_path=path.resolve())
         if str(scene) not in scene_names():
             raise ConfigError(
-                f"scene '{scene}' is not known; scenes: {listed(scene_names())}; "
+                f"scene '{scene}' is not known{did_you_mean(str(scene), scene_names())} "
+                f'scenes: {listed(scene_names())}; '
                 'or give the path of an MJCF (.xml) or scene (.yaml) file'
             )
         by_name = config_folder() / 'scenes' / f'{scene}.yaml'
@@ -218,6 +219,6 @@ class Scene:
         names = [model.key(i).name for i in range(model.nkey)]
         if self.keyframe is not None and self.keyframe not in names:
             raise ConfigError(
-                f"{self.name}: keyframe '{self.keyframe}' is not in the model; "
-                f'it has: {listed(names)}'
+                f"{self.name}: keyframe '{self.keyframe}' is not in the model"
+                f'{did_you_mean(self.keyframe, names)} it has: {listed(names)}'
             )

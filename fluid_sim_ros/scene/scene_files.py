@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene.weather_files import with_files
 from fluid_sim_ros.schema.base import parse
@@ -43,9 +43,10 @@ def scene_fields(path: Path) -> dict[str, Any]:
     if not content.model.endswith(('.xml', '.mjcf')):
         model_path = models_folder() / f'{content.model}.xml'
     if not model_path.is_file():
-        known = listed(sorted(p.stem for p in models_folder().glob('*.xml')))
+        known = sorted(p.stem for p in models_folder().glob('*.xml'))
         raise ConfigError(
-            f"{path}: key 'model': no model '{content.model}'; models: {known}; "
+            f"{path}: key 'model': no model '{content.model}'{did_you_mean(content.model, known)} "
+            f'models: {listed(known)}; '
             'or give the path of an MJCF file, relative to this file'
         )
     vehicles = None
@@ -70,6 +71,9 @@ def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
     beside = scene_path.parent / name
     path = beside if name.endswith(('.yaml', '.yml')) else folder / f'{name}.yaml'
     if not path.is_file():
-        known = listed(sorted(p.stem for p in folder.glob('*.yaml')))
-        raise ConfigError(f"{scene_path}: vehicle file '{name}' is not known; vehicles: {known}")
+        known = sorted(p.stem for p in folder.glob('*.yaml'))
+        raise ConfigError(
+            f"{scene_path}: vehicle file '{name}' is not known{did_you_mean(name, known)} "
+            f'vehicles: {listed(known)}'
+        )
     return parse(VehicleFile, read_yaml(path), path)

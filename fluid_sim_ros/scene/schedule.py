@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 
-from fluid_sim_ros.errors import CommandError, ConfigError, listed
+from fluid_sim_ros.errors import CommandError, ConfigError, did_you_mean, listed
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.limits import beyond, limit
 from fluid_sim_ros.schema.scene import ScheduledEvent
@@ -161,7 +161,8 @@ def check_schedule(
         for name in (*event.thrust, *event.wrench):
             if name not in vehicles:
                 raise ConfigError(
-                    f"{at}: vehicle '{name}' is not in the scene; it has: {listed(vehicles)}"
+                    f"{at}: vehicle '{name}' is not in the scene"
+                    f'{did_you_mean(name, vehicles)} it has: {listed(vehicles)}'
                 )
         for name, values in event.thrust.items():
             expected = len(vehicles[name].thrusters)

@@ -13,7 +13,7 @@ from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from fluid_sim_ros.errors import ConfigError, listed, printable
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed, printable
 
 Schema = TypeVar('Schema', bound='Strict')
 
@@ -122,7 +122,9 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
     message = printable(message.replace('Input should be', 'must be'), 500)
     key = named.format(printable(place))
     if kind == 'extra_forbidden':
-        return f'unknown {key}; allowed: {listed(owner.model_fields)}'
+        known = owner.model_fields
+        hint = did_you_mean(str(fault['loc'][-1]), known)
+        return f'unknown {key}{hint} allowed: {listed(known)}'
     if kind == 'missing':
         return f'missing {key}'
     if kind == 'union_tag_not_found':
@@ -130,7 +132,10 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
     if kind == 'union_tag_invalid':
         known = fault['ctx']['expected_tags'].replace("'", '')
         key = named.format(printable(f'{place}.model'))
-        return f"{key}: '{printable(fault['ctx']['tag'])}' is not known; allowed: {known}"
+        tag = printable(fault['ctx']['tag'])
+        return (
+            f"{key}: '{tag}' is not known{did_you_mean(tag, known.split(', '))} allowed: {known}"
+        )
     if isinstance(fault['input'], dict):  # a rule between keys: the whole mapping tells nothing
         return f'{key}: {message}' if place else message
     got = printable(fault['input'])

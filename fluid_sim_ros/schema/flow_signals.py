@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from fluid_sim_ros.errors import did_you_mean, listed
 from fluid_sim_ros.schema.base import NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.schema.flow_model import FlowModel, words
 
@@ -89,7 +90,9 @@ class Constituent(Strict):
         if (self.name is None) == (self.period_hours is None):
             raise ValueError('needs either name or period_hours')
         if self.name is not None and self.name not in TIDES:
-            raise ValueError(f"constituent '{self.name}' is not known; known: {', '.join(TIDES)}")
+            hint = did_you_mean(self.name, TIDES)
+            known = listed(TIDES)
+            raise ValueError(f"constituent '{self.name}' is not known{hint} known: {known}")
         return self
 
     def term(self) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from fluid_sim_ros.errors import listed
+from fluid_sim_ros.errors import did_you_mean, listed
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.schema.base import NotNegative, Number, Positive, Strict, Vector
 from fluid_sim_ros.schema.yaml_file import read_yaml
@@ -102,7 +102,8 @@ class SensorFile(Strict):
         known = presets(cls.kind)
         if content['preset'] not in known:
             raise ValueError(
-                f"preset '{content['preset']}' is not known; presets: {listed(known)}"
+                f"preset '{content['preset']}' is not known"
+                f'{did_you_mean(content["preset"], known)} presets: {listed(known)}'
             )
         path = config_folder() / 'sensors' / cls.kind / f'{content["preset"]}.yaml'
         return {**read_yaml(path), **content}

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import mujoco
 from pydantic import AfterValidator, BeforeValidator
 
-from fluid_sim_ros.errors import listed
+from fluid_sim_ros.errors import did_you_mean, listed
 from fluid_sim_ros.schema.base import Positive, Strict, validated
 
 INTEGRATORS = {
@@ -20,13 +20,15 @@ FLUID_RUNGS = ('none', 'inertia', 'ellipsoid', 'no_added_mass')
 
 def _integrator(name: str) -> str:
     if name.lower() not in INTEGRATORS:
-        raise ValueError(f"'{name}' is not known; allowed: {listed(INTEGRATORS)}")
+        hint = did_you_mean(name, INTEGRATORS)
+        raise ValueError(f"'{name}' is not known{hint} allowed: {listed(INTEGRATORS)}")
     return name
 
 
 def _fluid(name: str) -> str:
     if name not in FLUID_RUNGS:
-        raise ValueError(f"'{name}' is not known; allowed: {listed(FLUID_RUNGS)}")
+        hint = did_you_mean(name, FLUID_RUNGS)
+        raise ValueError(f"'{name}' is not known{hint} allowed: {listed(FLUID_RUNGS)}")
     return name
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from fluid_sim_ros.errors import CommandError, listed
+from fluid_sim_ros.errors import CommandError, did_you_mean, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.scene import CompiledScene
 from fluid_sim_ros.scene.vehicle import Vehicle
@@ -79,7 +79,8 @@ class Commands:
             return self._vehicles[name]
         except KeyError:
             raise CommandError(
-                f"vehicle '{name}' is not in the scene; it has: {listed(self._vehicles)}"
+                f"vehicle '{name}' is not in the scene{did_you_mean(name, self._vehicles)} "
+                f'it has: {listed(self._vehicles)}'
             ) from None
 
     def set_thrust(self, vehicle: str, values: Sequence[float] | Array) -> int:

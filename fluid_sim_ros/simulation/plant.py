@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.control.plant import Plant
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.simulation import Simulation
@@ -52,7 +52,8 @@ def _choose(simulation: Simulation, vehicle: str) -> Vehicle:
     if vehicle:
         if vehicle not in vehicles:
             raise ConfigError(
-                f"vehicle '{vehicle}' is not in scene '{scene}'; it has: {listed(vehicles)}"
+                f"vehicle '{vehicle}' is not in scene '{scene}'"
+                f'{did_you_mean(vehicle, vehicles)} it has: {listed(vehicles)}'
             )
         return vehicles[vehicle]
     driven = [v for v in vehicles.values() if v.thrusters]

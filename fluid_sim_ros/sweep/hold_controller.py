@@ -13,7 +13,7 @@ from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGai
 from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps
@@ -147,7 +147,8 @@ def _gains(kind: type[Gains], values: Mapping[str, Any]) -> Gains:
     known = [entry.name for entry in dataclasses.fields(kind)]
     unknown = [name for name in values if name not in known]
     if unknown:
-        raise ConfigError(f"gain '{unknown[0]}' is not one of them: {listed(known)}")
+        hint = did_you_mean(unknown[0], known)
+        raise ConfigError(f"gain '{unknown[0]}' is not known{hint} allowed: {listed(known)}")
     return kind(**values)
 
 

@@ -169,7 +169,10 @@ def test_a_vehicle_too_heavy_for_its_size_says_by_how_much():
         ({'position': [0, 1]}, "key 'thrusters.0.position'"),
         ({'direction': [0, 0, 0]}, "key 'thrusters.0.direction': is 0 0 0"),
         ({'spin': 'left'}, "key 'thrusters.0.spin'"),
-        ({'thrust': 3}, "unknown key 'thrusters.0.thrust'; allowed: name, position, direction"),
+        (
+            {'thrust': 3},
+            "'thrusters.0.thrust'; did you mean 'max_thrust'? allowed: name",
+        ),
     ],
 )
 def test_a_malformed_list_names_file_and_key(tmp_path, entry, words):

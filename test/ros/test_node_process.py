@@ -35,7 +35,10 @@ def test_two_instances_in_namespaces_do_not_meet():
     ('parameters', 'words'),
     [
         ({'scene': 'atlantis'}, "scene 'atlantis' is not known; scenes: "),
-        ({'scnee': 'rov'}, "parameter 'scnee' is not known; parameters: scene"),
+        (
+            {'scnee': 'rov'},
+            "parameter 'scnee' is not known; did you mean 'scene'? parameters: ",
+        ),
         ({'pacing': 'lock'}, 'allowed: realtime, free, lockstep'),
         ({'use_sim_time': True}, 'must be false for this node'),
         ({'scene': 'sphere', 'odom__rate': 333.0}, 'does not divide the step rate'),

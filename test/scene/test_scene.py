@@ -52,7 +52,8 @@ def test_every_named_scene_compiles_with_at_least_one_vehicle():
 
 
 def test_unknown_scene_lists_the_known_ones():
-    with pytest.raises(ConfigError, match=r"scene 'rovv' is not known; scenes: .*\brov\b"):
+    line = r"scene 'rovv' is not known; did you mean 'rov'\? scenes: .*\brov\b"
+    with pytest.raises(ConfigError, match=line):
         Scene.load('rovv')
 
 
@@ -159,7 +160,10 @@ def test_missing_files_are_named(tmp_path):
 @pytest.mark.parametrize(
     ('options', 'line'),
     [
-        ({'integrator': 'rk5'}, "integrator: 'rk5' is not known; allowed: euler, rk4"),
+        (
+            {'integrator': 'rk5'},
+            "integrator: 'rk5' is not known; allowed: euler, rk4",
+        ),
         ({'fluid': 'honey'}, "fluid: 'honey' is not known; allowed: none, inertia, ellipsoid"),
         ({'timestep': -1.0}, 'timestep: must be greater than 0'),
         ({'timestep': float('nan')}, 'timestep: must be finite'),

@@ -28,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[2]
         (
             {'scene': 'x500', 'hold': {'law': 'multirotor', 'target': [0, 0, 1]},
              'vary': {'gain.charm': {'values': [1]}}},
-            "gain 'charm' is not one of them: position",
+            "gain 'charm' is not known; allowed: position",
         ),
     ],
 )  # fmt: skip

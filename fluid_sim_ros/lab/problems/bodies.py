@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.lab.problems.closed_forms import keyframe, scene_of
 from fluid_sim_ros.lab.problems.mjcf import body_plugin, ellipsoid, free_body, world
 from fluid_sim_ros.physics.arrays import Array
@@ -101,7 +101,8 @@ class Body:
         known = {name: value for name, value in values.items() if name != 'timestep'}
         unknown = [name for name in known if name not in AXES]
         if unknown:
-            raise ConfigError(f"axis '{unknown[0]}' is not known; allowed: {listed(AXES)}")
+            hint = did_you_mean(unknown[0], AXES)
+            raise ConfigError(f"axis '{unknown[0]}' is not known{hint} allowed: {listed(AXES)}")
         for name, value in known.items():
             if not 0 < value < np.inf:
                 raise ConfigError(f'{name} {value:g}: must be above 0 and finite')
@@ -223,5 +224,8 @@ def family(name: str) -> Family:
 
     """
     if name not in FAMILIES:
-        raise ConfigError(f"stability problem '{name}' is not known; allowed: {listed(FAMILIES)}")
+        raise ConfigError(
+            f"stability problem '{name}' is not known{did_you_mean(name, FAMILIES)} "
+            f'allowed: {listed(FAMILIES)}'
+        )
     return FAMILIES[name]

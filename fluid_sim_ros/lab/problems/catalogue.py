@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.lab.problems import closed_forms, plates, scene_problems, solved_bodies
 from fluid_sim_ros.lab.problems.from_scene import of_scene
 from fluid_sim_ros.lab.problems.problem import Problem
@@ -45,7 +45,8 @@ def problem(name: str) -> Problem:
         return PROBLEMS[name]()
     if name not in scene_names() and '.' not in name and '/' not in name:
         raise ConfigError(
-            f"problem '{name}' is not known; problems: {listed(PROBLEMS)}; "
+            f"problem '{name}' is not known{did_you_mean(name, [*PROBLEMS, *scene_names()])} "
+            f'problems: {listed(PROBLEMS)}; '
             f'scenes: {listed(scene_names())}'
         )
     return of_scene(name)

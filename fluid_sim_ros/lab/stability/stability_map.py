@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.lab.problems.bodies import AXES, Body, family
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS, known_integrators
 from fluid_sim_ros.lab.progress import Report, silent
@@ -64,7 +64,8 @@ def plan(
     for key, given in (('x', x_range), ('y', y_range)):
         axis = axes[key]
         if axis not in AXES:
-            raise ConfigError(f"axis '{axis}' is not known; allowed: {listed(AXES)}")
+            hint = did_you_mean(axis, AXES)
+            raise ConfigError(f"axis '{axis}' is not known{hint} allowed: {listed(AXES)}")
         low, high = given or (AXES[axis].low, AXES[axis].high)
         if not 0 < low < high < np.inf:
             raise ConfigError(f'range of {axis}: {low:g} {high:g}; allowed: 0 < low < high')

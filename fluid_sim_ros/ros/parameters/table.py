@@ -14,7 +14,7 @@ from rcl_interfaces.msg import (
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.ros.raw import parameter_overrides
 
 _BUILT_IN = ('use_sim_time', 'start_type_description_service')
@@ -81,7 +81,8 @@ def declare(node: Node, table: Table) -> None:
             if fault:
                 raise ConfigError(fault)
         elif name not in _BUILT_IN and not name.startswith('qos_overrides.'):
-            raise ConfigError(f"parameter '{name}' is not known; parameters: {listed(table)}")
+            hint = did_you_mean(name, table)
+            raise ConfigError(f"parameter '{name}' is not known{hint} parameters: {listed(table)}")
     for name, declared in table.items():
         node.declare_parameter(name, declared.default, _descriptor(declared))
 
