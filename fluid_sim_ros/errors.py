@@ -48,6 +48,10 @@ class MissingExtraError(FluidSimError):
     """An optional part is not installed; the message says which extra brings it."""
 
 
+class AutopilotError(FluidSimError):
+    """An autopilot has died, does not answer any more, or was never heard of."""
+
+
 class DivergedError(FluidSimError):
     """
     The simulation left the range of finite numbers.

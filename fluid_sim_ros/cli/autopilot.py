@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 #: What the doctor flies while it looks, and for how long [s].
 _SCENE, _SECONDS = 'x500_ground', 10.0
+#: Options that have the names of ``AutopilotOptions``.
+_OPTIONS = ('vehicle', 'mapping', 'instance', 'port', 'address', 'timeout', 'on_timeout')
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -37,6 +39,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         '--mapping', metavar='NAME', help='of config/autopilots, or a file (default by vehicle)'
     )
     group.add_argument('--instance', type=int, metavar='N', help='number on this host (default 0)')
+    group.add_argument(
+        '--timeout', type=float, metavar='S',
+        help='wall time that a silent one is waited for (default 60); simulated time stands still',
+    )  # fmt: skip
+    group.add_argument(
+        '--on-timeout', choices=('hold', 'continue', 'stop'),
+        help='then: wait on, go on with thrust at rest (default), or end the run',
+    )  # fmt: skip
     group.add_argument('--port', type=int, metavar='P', help='to listen on (default by instance)')
     group.add_argument(
         '--address', metavar='A', help='to listen on (default 127.0.0.1: this host only)'
@@ -76,13 +86,13 @@ def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
 
     """
     chosen = {
-        name: getattr(arguments, name)
-        for name in ('vehicle', 'mapping', 'instance', 'port', 'address')
-        if getattr(arguments, name) is not None
+        name: getattr(arguments, name) for name in _OPTIONS if getattr(arguments, name) is not None
     }
+    if not chosen.get('timeout', 1.0) > 0:
+        raise ConfigError(f'--timeout {chosen["timeout"]:g}: must be above 0')
     if arguments.autopilot is None:
         if chosen or arguments.program:
-            option = 'exec' if arguments.program else next(iter(chosen))
+            option = 'exec' if arguments.program else next(iter(chosen)).replace('_', '-')
             raise ConfigError(f'--{option} needs --autopilot')
         return None
     # heavy: only when it is needed

@@ -4,9 +4,9 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.errors import AutopilotError
 from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
 from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
@@ -19,10 +19,13 @@ from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
 
 if TYPE_CHECKING:
+    from fluid_sim_ros.mavlink.program.program import Program
     from fluid_sim_ros.recording.sink import RecordingSink
 
 #: Wall time between two lines about the same thing [s].
 _LINE_PERIOD = 1.0
+#: Of the bridge's numbers, those that a summary names, in its order.
+_COUNTS = ('missed', 'late', 'repeated', 'malformed', 'restarts')
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,15 @@ class Flight:
     say
         Shows a line to the user; called in any thread.
 
+    Attributes
+    ----------
+    fault
+        Why the autopilot ended the run, or empty.
+    exit_code
+        How the program that was started ended by itself; None: it did not.
+    result
+        What the bridge counted, and both of the above, ready for JSON; empty before the end.
+
     """
 
     def __init__(
@@ -58,47 +70,67 @@ class Flight:
         log: 'RecordingSink | None',
         say: Callable[[str], None],
     ) -> None:
-        self._simulation, self._log, self._say = simulation, log, say
+        self._simulation, self._run, self._log, self._say = simulation, run, log, say
         self._said_at: dict[str, float] = {}
         self._runner: Runner | None = None
-        surroundings = Surroundings(self._report, self._reset, log)
+        self.fault = ''
+        self.exit_code: int | None = None
+        self.result: dict[str, Any] = {}
+        surroundings = Surroundings(self._report, say, self._reset, log)
         self.bridge = open_bridge(simulation, run.options, surroundings)
         self.pacing = AutopilotPacing(self.bridge, clock)
         say(self.bridge.status().message)
 
     @contextmanager
-    def of(self, runner: Runner, run: AutopilotRun) -> Iterator[None]:
+    def of(self, runner: Runner) -> Iterator[None]:
         """
         Fly the runner in this block; end the program and close the socket behind it.
+
+        An autopilot that dies or falls silent for good ends the block; ``fault`` then says so.
 
         Parameters
         ----------
         runner
-            Steps the simulation with this flight's pacing.
-        run
-            By whom.
+            Whose pacing is the flight's.
 
         Returns
         -------
         context manager
             In which the runner is run.
 
+        Raises
+        ------
+        ConfigError
+            If the program cannot be started.
+
         """
         self._runner = runner
         with ExitStack() as stack:
             stack.callback(self.bridge.close)
-            if run.program:
-                from fluid_sim_ros.mavlink.mapping import load_mapping
-                from fluid_sim_ros.mavlink.program.program import Program
+            if self._run.program:
+                self._start(self._run, runner, stack)
+            try:
+                yield
+            except AutopilotError as error:
+                self.fault = str(error)
+            self.result = self._result()
+        self._say(counts_line(self.result))
 
-                options, home = run.options, self._simulation.scene.home
-                file, _ = load_mapping(options.protocol, self.bridge.vehicle, options.mapping)
-                program = Program(run.program, options, file, home, self._say)
-                stack.callback(program.close)
-                runner.housekeeping = partial(self._end_with, program)
-            yield
-        status = self.bridge.status()
-        self._say(f'{status.values["answered"]} of {status.values["sent"]} states were answered')
+    def _start(self, run: AutopilotRun, runner: Runner, stack: ExitStack) -> None:
+        from fluid_sim_ros.mavlink.mapping import load_mapping
+        from fluid_sim_ros.mavlink.program.program import Program
+
+        options, home = run.options, self._simulation.scene.home
+        file, _ = load_mapping(options.protocol, self.bridge.vehicle, options.mapping)
+        program = Program(run.program, options, file, home, self._say)
+        stack.callback(program.close)
+        before = runner.housekeeping
+
+        def look_after() -> None:
+            before()
+            self._end_with(program)
+
+        runner.housekeeping = look_after
 
     def _reset(self) -> None:
         self._simulation.reset()
@@ -107,16 +139,55 @@ class Flight:
         if self._runner is not None:
             self._runner.restart()
 
-    def _end_with(self, program: Any) -> None:
-        if program.exit_code is not None and self._runner is not None:
-            self._say(f'the autopilot has ended with code {program.exit_code}')
-            self._runner.stop()
+    def _end_with(self, program: 'Program') -> None:
+        """End the run with its program; only one that has flown may end in order."""
+        code = program.exit_code
+        if code is None or self._runner is None:
+            return
+        from fluid_sim_ros.mavlink.program.program import ending
+
+        program.wait_for_output()
+        self.exit_code = code
+        answered = self.bridge.status().values['answered']
+        line = f'the autopilot {ending(code)}'
+        if answered and code == 0:
+            self._say(line)
+        else:
+            self.fault = line if answered else f'{line} before it answered'
+        self._runner.stop()
 
     def _report(self, key: str, line: str) -> None:
         now = time.monotonic()
         if now - self._said_at.get(key, -_LINE_PERIOD) >= _LINE_PERIOD:
             self._said_at[key] = now
             self._say(line)
+
+    def _result(self) -> dict[str, Any]:
+        status = self.bridge.status()
+        return {
+            'vehicle': self.bridge.vehicle, 'state': f'{status.level}: {status.message}',
+            **status.values, 'exit_code': self.exit_code, 'fault': self.fault,
+        }  # fmt: skip
+
+
+def counts_line(result: dict[str, Any]) -> str:
+    """
+    Return in one line how the exchanges with an autopilot went.
+
+    Parameters
+    ----------
+    result
+        As of ``Flight``.
+
+    Returns
+    -------
+    str
+        Such as ``px4: 750 of 765 states were answered; missed 0, late 0, ...``.
+
+    """
+    counts = ', '.join(f'{name} {result[name]}' for name in _COUNTS)
+    answered = f'{result["answered"]} of {result["sent"]} states were answered'
+    return f'{result["protocol"]}: {answered}; {counts}'
 
 
 def listen_to_autopilot(run: AutopilotRun, scene: str, seconds: float) -> dict[str, Any]:
@@ -126,16 +197,17 @@ def listen_to_autopilot(run: AutopilotRun, scene: str, seconds: float) -> dict[s
     Parameters
     ----------
     run
-        Who is listened for.
+        Which one.
     scene
-        Name or file.
+        What it flies meanwhile.
     seconds
-        Wall time to listen [s].
+        Wall time.
 
     Returns
     -------
     dict
-        State of the bridge, its counters, simulated time [s] and the lines of its reports.
+        Status and numbers of the bridge, ready for JSON. ``fault`` is empty where it answered,
+        and ``reasons`` are what may be wrong where it did not.
 
     Raises
     ------
@@ -146,16 +218,18 @@ def listen_to_autopilot(run: AutopilotRun, scene: str, seconds: float) -> dict[s
     lines: list[str] = []
     simulation = Simulation(scene)
     flight = Flight(simulation, Pacing(), run, None, lines.append)
-    runner = Runner(simulation, NoSource(), [], flight.pacing)
     end = time.monotonic() + seconds
 
     def stop_in_time() -> None:
         if time.monotonic() >= end:
             runner.stop()
 
-    with flight.of(runner, run):
-        runner.housekeeping = stop_in_time
+    runner = Runner(simulation, NoSource(), [], flight.pacing, housekeeping=stop_in_time)
+    with flight.of(runner):
         runner.run(NEVER)
-        status = flight.bridge.status()
-    state = f'{status.level}: {status.message}'
-    return {'state': state, **status.values, 'simulated_s': simulation.time, 'reports': lines}
+    seen = flight.result
+    seen |= {'simulated_s': simulation.time, 'reasons': [], 'reports': lines}
+    if not seen['answered']:
+        seen['fault'] = seen['fault'] or f'nothing was heard within {seconds:g} s'
+        seen['reasons'] = flight.bridge.reasons()
+    return seen

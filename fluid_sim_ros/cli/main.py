@@ -2,8 +2,8 @@
 The ``fluid_sim`` command.
 
 Each subcommand imports what it needs when it runs, so that ``fluid_sim --help`` is instant.
-Exit codes: 0, 1 (the simulation diverged, the doctor found a fault, or a log is damaged or not
-repeated), 2 (wrong input).
+Exit codes: 0, 1 (the simulation diverged, an autopilot died or was not heard, the doctor found a
+fault, or a log is damaged or not repeated), 2 (wrong input), 130 (interrupted).
 """
 
 import argparse
@@ -20,7 +20,7 @@ from fluid_sim_ros.output.json_file import write_json
 if TYPE_CHECKING:
     from rich.console import Console
 
-DIVERGED = 1
+DIVERGED = FAILED = 1
 WRONG_INPUT = 2
 #: Exit code of a command ended by SIGINT, as shells have it (128 + signal number).
 INTERRUPTED = 130
@@ -148,10 +148,14 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
     )
     show(arguments.json, summary_table(result), result)
     if arguments.record and arguments.json != '-':
-        _console().print(f'Log: {result["record"]}', soft_wrap=True)
+        for path in result['records']:
+            _console().print(f'Log: {path}', soft_wrap=True, markup=False)
     if result.get('record_fault'):  # the flight went on without
         raise ConfigError(result['record_fault'])
-    return 0
+    flown = result.get('autopilot')
+    if flown is None:
+        return INTERRUPTED if result['interrupted'] else 0
+    return _fail(flown['fault'], FAILED) if flown['fault'] else 0
 
 
 def _scenes(arguments: argparse.Namespace, show: Show) -> int:
@@ -188,7 +192,7 @@ def _doctor(arguments: argparse.Namespace, show: Show) -> int:
     if arguments.autopilot:
         table, seen = autopilot.autopilot_table(arguments)
         show(arguments.json, table, seen)
-        return 0
+        return _fail(seen['fault'], FAILED) if seen['fault'] else 0
     rows = doctor.examine() if arguments.scene is None else examine_scene(arguments.scene)
     show(arguments.json, doctor.table(rows), [row.as_dict() for row in rows])
     return 0 if doctor.works(rows) else 1

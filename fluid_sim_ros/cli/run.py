@@ -2,17 +2,19 @@
 
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
+from rich.markup import escape
 from rich.progress import Progress
 from rich.table import Table
 
-from fluid_sim_ros.cli.flight import AutopilotRun, Flight
-from fluid_sim_ros.cli.shared import progress_bar
+from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_line
+from fluid_sim_ros.cli.shared import plain_lines, progress_bar
+from fluid_sim_ros.cli.signals import stopped_by_signals
 from fluid_sim_ros.errors import ConfigError, needed_for
 from fluid_sim_ros.loop.grid_watch import GridWatch
 from fluid_sim_ros.loop.pacing import Pacing, RealTime
@@ -121,7 +123,10 @@ def run_scene(
     dict
         Settings, real-time factor, and per vehicle the final state and the largest fluid force,
         units in the keys. Forces are looked at every 0.01 s. ``record_fault`` is what ended the
-        recording before the run, such as a full disk, or empty.
+        recording before the run, such as a full disk, or empty; ``records`` are all its files,
+        for a restarted autopilot begins another. ``interrupted`` is the signal that ended the
+        run, or empty. ``autopilot`` holds what its bridge counted, and ``fault``, why it ended
+        the run, or empty.
 
     Raises
     ------
@@ -150,16 +155,17 @@ def run_scene(
         sinks: list[Sink] = [watcher]
         with _recording(simulation, record, record_topics, sinks) as (files, log):
             begin = time.perf_counter()
-            if autopilot is None:
-                Runner(simulation, NoSource(), sinks, pacing).run(until=steps)
-            else:
-                flight = Flight(simulation, pacing, autopilot, log, progress.console.print)
-                runner = Runner(simulation, NoSource(), sinks, flight.pacing)
-                # an interruption is how such a run ends
-                with flight.of(runner, autopilot), suppress(KeyboardInterrupt):
-                    runner.run(until=steps)
+            flight = None
+            if autopilot is not None:
+                flight = Flight(simulation, pacing, autopilot, log, plain_lines(progress.console))
+                pacing = flight.pacing
+            runner = Runner(simulation, NoSource(), sinks, pacing)
+            connected = nullcontext() if flight is None else flight.of(runner)
+            with stopped_by_signals(runner.stop) as interruption, connected:
+                runner.run(until=steps)
             wall = time.perf_counter() - begin
-    return _summary(simulation, watcher, wall) | files
+    result = _summary(simulation, watcher, wall) | files | {'interrupted': interruption.name}
+    return result if flight is None else result | {'autopilot': flight.result}
 
 
 @contextmanager
@@ -178,11 +184,12 @@ def _recording(
     settings = {'fluid': simulation.settings.fluid or ''}
     sink = RecordingSink(simulation, Path(path), settings, topics)
     sinks.append(sink)
-    files = {'record': str(sink.recorder.paths[0])}
+    files: dict[str, Any] = {'record': str(sink.recorder.paths[0])}
     try:
         yield files, sink
     finally:
         sink.close()
+        files['records'] = [str(path) for path in sink.recorder.paths]
         files['record_fault'] = sink.recorder.fault
 
 
@@ -196,13 +203,16 @@ def summary_table(result: dict[str, Any]) -> Table:
         Of ``run_scene``.
 
     """
+    caption = 'position in the world (ENU), velocity along base_link (FLU)'
+    if 'autopilot' in result:
+        caption = f'{counts_line(result["autopilot"])}\n{caption}'
     table = Table(
         'vehicle', r'position \[m]', r'velocity \[m/s]', 'largest fluid force',
         title=(
-            f'{result["scene"]}: {result["duration_s"]:g} s in {result["wall_s"]:.2f} s, '
+            f'{escape(result["scene"])}: {result["duration_s"]:g} s in {result["wall_s"]:.2f} s, '
             f'real-time factor {result["real_time_factor"]:.4g}'
         ),
-        caption='position in the world (ENU), velocity along base_link (FLU)',
+        caption=caption,
     )  # fmt: skip
     for name, vehicle in result['vehicles'].items():
         force, at = vehicle['largest_fluid_force_n'], vehicle['largest_fluid_force_at_s']

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fluid_sim_ros.errors import needed_for
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.progress import Progress, ProgressColumn
 
     from fluid_sim_ros.lab.progress import Report
@@ -56,6 +57,23 @@ def add_command(
     parser.add_argument('--json', metavar='PATH', help=JSON_HELP)
     parser.set_defaults(function=run)
     return parser
+
+
+def plain_lines(console: 'Console') -> Callable[[str], None]:
+    """
+    Return what shows a line of text as it is: what looks like markup is none.
+
+    Parameters
+    ----------
+    console
+        Where it is shown.
+
+    """
+
+    def show(line: str) -> None:
+        console.out(line, highlight=False)
+
+    return show
 
 
 def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':

@@ -18,6 +18,8 @@ from fluid_sim_ros.simulation import Simulation
 _PART = 'fluid_sim_ros.mavlink.bridge'
 
 PROTOCOLS = ('px4', 'ardupilot')
+#: What follows when an autopilot that has answered is silent for too long.
+TIMEOUT_RULES = ('hold', 'continue', 'stop')
 LOOPBACK = '127.0.0.1'
 
 
@@ -41,7 +43,11 @@ class AutopilotOptions:
     address
         Address to listen on; anything but a loopback address lets other hosts in.
     timeout
-        Wall time without an answer after which the autopilot counts as gone [s].
+        Wall time that an autopilot which has answered is waited for [s]; simulated time stands
+        still meanwhile.
+    on_timeout
+        One of ``TIMEOUT_RULES``: go on waiting, go on at real time with thrust at rest, or end
+        with AutopilotError.
     sticks_timeout
         Wall time without moved sticks after which the radio control is lost [s]; 0: never.
 
@@ -53,7 +59,8 @@ class AutopilotOptions:
     instance: int = 0
     port: int = 0
     address: str = LOOPBACK
-    timeout: float = 1.0
+    timeout: float = 60.0
+    on_timeout: str = 'continue'
     sticks_timeout: float = 0.5
 
 
@@ -129,6 +136,9 @@ class Bridge(Protocol):
     def status(self) -> BridgeStatus:
         """Return what to show people."""
 
+    def reasons(self) -> list[str]:
+        """Return what may be wrong while it has not answered yet."""
+
     def close(self) -> None:
         """Close the socket."""
 
@@ -169,7 +179,9 @@ class Surroundings:
     Attributes
     ----------
     report
-        Takes (key, line): a fault, or what has come and gone; shown at most once per second.
+        Takes (key, line): a fault; lines of one key are shown at most once per second.
+    inform
+        Takes a line about what is as it should be, such as a connection.
     reset
         Puts the vehicle back to where it started: another autopilot process has begun.
     log
@@ -178,6 +190,7 @@ class Surroundings:
     """
 
     report: Callable[[str, str], None] = lambda key, line: None
+    inform: Callable[[str], None] = lambda line: None
     reset: Callable[[], object] = lambda: None
     log: CommandLog | None = None
 

@@ -9,8 +9,9 @@ from fluid_sim_ros.loop.autopilot_port import (
     Bridge,
     Surroundings,
 )
+from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.ardupilot.bridge import ArduPilotBridge
-from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
+from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.simulation import Simulation
 
 

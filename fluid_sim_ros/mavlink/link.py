@@ -11,8 +11,8 @@ from fluid_sim_ros.loop.autopilot_port import (
     BridgeStatus,
     Surroundings,
 )
+from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.counters import Counters
-from fluid_sim_ros.mavlink.mapping import ActuatorMap
 from fluid_sim_ros.simulation import Simulation
 
 #: Longest wait for an autopilot at a time [s], so that requests of other threads are served.
@@ -58,7 +58,6 @@ class AutopilotLink(ABC):
         self.vehicle = options.vehicle
         self.counters = Counters()
         self._surroundings = surroundings
-        self._timeout = options.timeout
         self._actuators = actuators
         self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
         self._outputs: Sequence[float] = ()
@@ -137,6 +136,10 @@ class AutopilotLink(ABC):
             trouble = 'warn', line
         level, line = trouble or ('ok', 'in lockstep')
         return BridgeStatus(level, line, values)
+
+    @abstractmethod
+    def reasons(self) -> list[str]:
+        """Return what may be wrong while it has not answered yet, most likely first."""
 
     @abstractmethod
     def _values(self) -> dict[str, Any]:

@@ -27,6 +27,8 @@ class Truth:
         Angular velocity [rad/s], FRD.
     specific_force
         [m/s^2], FRD; zeros unless asked for.
+    acceleration_ned
+        Derivative of ``velocity_ned`` [m/s^2]; without meaning unless forces were asked for.
     air_ned
         Velocity of the medium at the vehicle [m/s], the direction that it moves to.
     airspeed
@@ -40,6 +42,7 @@ class Truth:
     velocity_frd: Vector3
     rates: Vector3
     specific_force: Vector3
+    acceleration_ned: Vector3
     air_ned: Vector3
     airspeed: float
 
@@ -58,7 +61,7 @@ class TruthReader:
     def __init__(self, simulation: Simulation, vehicle: str) -> None:
         self._simulation = simulation
         self._index = list(simulation.vehicles).index(vehicle)
-        self._velocity_w = np.zeros(3)
+        self._velocity_w, self._force_w = np.zeros(3), np.zeros(3)
 
     def read(self, forces: bool) -> Truth:
         """
@@ -77,6 +80,7 @@ class TruthReader:
         """
         row = self._simulation.observe(forces, wrenches=False)[self._index]
         mujoco.mju_rotVecQuat(self._velocity_w, row[nat.LINEAR_VELOCITY], row[nat.QUATERNION])
+        mujoco.mju_rotVecQuat(self._force_w, row[nat.SPECIFIC_FORCE], row[nat.QUATERNION])
         numbers = row.tolist()
         velocity_b = numbers[nat.LINEAR_VELOCITY]
         velocity_w, medium_w = self._velocity_w.tolist(), numbers[nat.MEDIUM_VELOCITY]
@@ -88,6 +92,7 @@ class TruthReader:
             flu_to_frd(velocity_b),
             flu_to_frd(numbers[nat.ANGULAR_VELOCITY]),
             flu_to_frd(numbers[nat.SPECIFIC_FORCE]),
+            enu_to_ned((self._force_w + self._simulation.model.opt.gravity).tolist()),
             enu_to_ned(medium_w),
             sum(v * v for v in through_w) ** 0.5,
         )

@@ -72,6 +72,7 @@ def start_autopilot(
     settings: Mapping[str, Any],
     inputs: Inputs,
     report: Callable[[str, str], None],
+    inform: Callable[[str], None],
     reset: Callable[[], object],
 ) -> Bridge | None:
     """
@@ -112,12 +113,12 @@ def start_autopilot(
             name: settings[f'autopilot.{name}']
             for name in (
                 'protocol', 'vehicle', 'mapping', 'instance', 'port', 'address', 'timeout',
-                'sticks_timeout',
+                'on_timeout', 'sticks_timeout',
             )
         }
     )  # fmt: skip
     log = CommandTap(inputs) if settings['record'] else None
-    bridge = open_bridge(simulation, options, Surroundings(report, reset, log))
+    bridge = open_bridge(simulation, options, Surroundings(report, inform, reset, log))
     if bridge.takes_sticks:
         inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
     return bridge

@@ -79,7 +79,9 @@ class Session:
             node, self.simulation, self.inputs, graph, self.outputs.suites
         )
         self.simulation.enable_wind(settings['enable_wind'])
-        self._bridge = start_autopilot(self.simulation, settings, self.inputs, report, self.reset)
+        self._bridge = start_autopilot(
+            self.simulation, settings, self.inputs, report, node.get_logger().info, self.reset
+        )
         self._diagnostics.bridge = self._bridge
         self.runner = Runner(
             self.simulation, self.inputs, [self.outputs], self._pacing(), requests,

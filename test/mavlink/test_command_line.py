@@ -5,6 +5,7 @@ import random
 import shlex
 import sys
 import threading
+from time import sleep
 
 import pytest
 
@@ -12,13 +13,11 @@ from fluid_sim_ros.cli import main
 from fluid_sim_ros.cli.flight import AutopilotRun
 from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
-from fluid_sim_ros.mavlink.mapping import load_mapping
-from fluid_sim_ros.mavlink.program.program import Program, command_line
+from fluid_sim_ros.mavlink import silence
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
-from fluid_sim_ros.schema.scene import Home
 from test.support.autopilots.ardupilot_stand_in import Copter, Link, padded
-from test.support.autopilots.autopilot_peers import free_port, waited
+from test.support.autopilots.autopilot_peers import free_port
 from test.support.paths import ROOT
 
 PROGRAM = 'test.support.autopilots.px4_program'
@@ -42,7 +41,12 @@ def test_a_program_is_started_flown_with_and_ended(tmp_path, instance, capfd):
     ]  # fmt: skip
     assert main(arguments) == 0
     out, err = capfd.readouterr()
-    assert json.loads(out)['vehicles']['x500']['position_w_m'][2] > 1.0
+    result = json.loads(out)
+    assert result['vehicles']['x500']['position_w_m'][2] > 1.0
+    flown = result['autopilot']
+    assert (flown['exit_code'], flown['fault'], flown['restarts']) == (None, '', 0)
+    assert flown['answered'] <= flown['sent'] == 999
+    assert (flown['missed'], flown['late'], flown['repeated'], flown['malformed']) == (0,) * 4
     assert f'airframe 10016, instance {instance}' in err
     assert 'states were answered' in err
     # without the autopilot, its commands give the same flight
@@ -75,40 +79,6 @@ def test_a_flight_with_changing_frames_repeats_bit_by_bit(tmp_path):
     assert again.difference is None
 
 
-def test_the_run_ends_with_its_program(instance):
-    command = f'{sys.executable} -c "print(1 + 1)"'
-    run = AutopilotRun(AutopilotOptions('px4', instance=instance), command)
-    assert run_scene('x500_ground', autopilot=run)['steps'] == 0
-
-
-def test_a_program_that_does_not_listen_to_requests_is_ended(instance):
-    lines: list[str] = []
-    command = f'{sys.executable} -c "print(5, flush=True); import time; time.sleep(60)"'
-    file, _ = load_mapping('px4', 'x500')
-    program = Program(command, AutopilotOptions('px4'), file, Home(), lines.append)
-    assert waited(lambda: lines == ['5'])
-    program.close()
-    assert program.exit_code is not None
-
-
-def test_command_lines(tmp_path):
-    px4, _ = load_mapping('px4', 'x500')
-    options = AutopilotOptions('px4', instance=2)
-    command = command_line('bin/px4 -w "a b"', options, px4, Home(), tmp_path)
-    assert command == ['bin/px4', '-w', 'a b', '-d', '-i', '2']
-    sub, _ = load_mapping('ardupilot', 'bluerov2')
-    options = AutopilotOptions('ardupilot', instance=1)
-    home = Home(latitude=1.5, longitude=-2.0)
-    command = command_line('ardusub', options, sub, home, tmp_path)
-    assert command == [
-        'ardusub', '--model', 'JSON:127.0.0.1', '--home', '1.5,-2.0,0.0,90', '--speedup', '100',
-        '-I', '1', '--defaults', str(tmp_path / 'parameters.parm'),
-    ]  # fmt: skip
-    assert (tmp_path / 'parameters.parm').read_text() == 'FRAME_CONFIG 1\n'
-    command = command_line('ardusub --defaults mine.parm', options, sub, home, tmp_path)
-    assert command.count('--defaults') == 1
-
-
 @pytest.mark.parametrize(
     ('arguments', 'line'),
     [
@@ -133,7 +103,57 @@ def test_the_doctor_shows_what_it_sees(capsys, instance):
                  '--exec', COMMAND, '--json', '-']  # fmt: skip
     assert main(arguments) == 0
     seen = json.loads(capsys.readouterr().out)
-    assert seen['state'] == 'ok: in lockstep'
+    assert (seen['state'], seen['fault']) == ('ok: in lockstep', '')
     assert seen['peer'].startswith('127.0.0.1:')
     assert seen['answered'] > 10
     assert len(seen['last_outputs']) == 16
+
+
+@pytest.mark.parametrize(
+    ('protocol', 'reason'),
+    [
+        ('px4', 'PX4 is not started, or not with an airframe of a simulation'),
+        ('ardupilot', 'ArduPilot is not started, or without --model JSON:127.0.0.1'),
+    ],
+)
+def test_a_doctor_that_hears_nothing_fails_and_says_why(protocol, reason, capsys):
+    arguments = ['doctor', '--autopilot', protocol, '--port', str(free_port(protocol)),
+                 '--seconds', '0.2', '--json', '-']  # fmt: skip
+    assert main(arguments) == 1
+    out, err = capsys.readouterr()
+    seen = json.loads(out)
+    assert seen['reasons'][0].startswith(reason)
+    assert err.splitlines()[-1] == 'fluid_sim: nothing was heard within 0.2 s'
+
+
+def test_the_doctor_ends_with_the_program(capsys, instance):
+    arguments = ['doctor', '--autopilot', 'px4', '--instance', str(instance), '--exec', 'false']
+    assert main(arguments) == 1
+    line = 'fluid_sim: the autopilot ended with code 1 before it answered'
+    assert capsys.readouterr().err.splitlines()[-1] == line
+
+
+def test_every_file_of_a_log_is_named(tmp_path, capsys):
+    log, port = tmp_path / 'flight.mcap', free_port('ardupilot')
+
+    def fly():
+        for _ in range(3):  # the same process again and again
+            link = Link(port)
+            for _ in range(30):
+                link.exchange(padded([1600] * 4))
+            link.close()
+            sleep(silence.REPORT_AFTER + 0.1)  # until then it is a stranger
+
+    autopilot = threading.Thread(target=fly)
+    autopilot.start()
+    arguments = ['run', 'x500_ground', '--autopilot', 'ardupilot', '--port', str(port),
+                 '--record', str(log), '--timeout', '1.5', '--on-timeout', 'stop']  # fmt: skip
+    assert main(arguments) == 1
+    autopilot.join()
+    out, err = capsys.readouterr()
+    named = [line.removeprefix('Log: ') for line in out.splitlines() if line.startswith('Log: ')]
+    assert len(named) == 3
+    assert sorted(map(str, tmp_path.iterdir())) == sorted(named)
+    assert err.splitlines()[-1] == 'fluid_sim: ArduPilot: no answer for 1.5 s: stopped'
+    # what is between two restarts counts for each of them
+    assert 'ardupilot: 87 of 90 states were answered; missed 0, late 0' in err

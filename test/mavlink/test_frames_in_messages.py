@@ -8,6 +8,7 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.mavlink.ardupilot.json_packets import write_state
+from fluid_sim_ros.mavlink.ardupilot.json_state import StateReader
 from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.px4.hil_state import HilState
@@ -84,7 +85,7 @@ def messages(scene, case, height):
     file, _ = load_mapping('px4', vehicle)
     state, codec = HilState(simulation, vehicle, file, Sticks((), 0.0)), HilWriter()
     found = {}
-    for step in (2, 4, 6, 50):  # the magnetometer is due at 6, the receiver at 50
+    for step in (2, 4, 6, 50, 56):  # the magnetometer is due at 6, the receiver's fix of 50 at 56
         simulation._step = step
         decoded, _ = hil_wire.frames(state.messages(codec, 2000 * step))
         for name, fields in decoded:
@@ -134,9 +135,11 @@ def test_px4_in_the_air(case):
     assert truth['lat'] == pytest.approx(473977420 + 899, abs=30)
     assert truth['lon'] == pytest.approx(85455940 + 2654, abs=60)
     assert truth['alt'] == 30000
-    if case in FORCE:
-        pushed = [truth['xacc'], truth['yacc'], truth['zacc']]
-        assert pushed == pytest.approx([1000 * f for f in FORCE[case]], abs=200)
+    if case in FORCE:  # and falling
+        pushed = np.add(FORCE[case], (0, 0, 9.81))
+        assert [truth[key] for key in ('xacc', 'yacc', 'zacc')] == pytest.approx(
+            1000 * pushed, abs=200
+        )
 
 
 @pytest.mark.parametrize('case', CASES)
@@ -166,7 +169,7 @@ def test_ardupilot(case):
     for field in ('qpos', 'qvel', 'act', 'ctrl', 'qfrc_applied'):
         getattr(data, field)[:] = getattr(source, field)
     flight.simulation.model.opt.wind[:] = (3.0, 2.0, 0.0)  # to the east and north
-    read = JsonReader().read(write_state(flight.bridge.state(1)))
+    read = JsonReader().read(write_state(StateReader(flight.simulation, 'x500').read(1.0)))
     assert read['attitude'] == pytest.approx(angles, abs=1e-6)
     assert turned_by(read['quaternion']) == pytest.approx(angles, abs=1e-6)
     assert read['gyro'] == pytest.approx(rates, abs=1e-6)

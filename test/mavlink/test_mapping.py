@@ -8,7 +8,8 @@ import pytest
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.mavlink.mapping import ActuatorMap, load_mapping
+from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
+from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.simulation.plant import plant_of
 from test.support.autopilots.ardupilot_stand_in import (

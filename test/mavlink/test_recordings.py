@@ -96,7 +96,7 @@ def test_recorded_states_are_written_as_ardupilot_read_them(name):
         written = ours.read(
             write_state(
                 JsonState(
-                    round(state['timestamp'] * 1e9),
+                    state['timestamp'],
                     tuple(state['imu']['gyro']),
                     tuple(state['imu']['accel_body']),
                     tuple(state['position']),

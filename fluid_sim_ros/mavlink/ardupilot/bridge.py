@@ -1,8 +1,9 @@
 """
 ArduPilot in lockstep: a servo packet comes in, one frame is simulated, its end is the reply.
 
-The autopilot leads: it says with each packet how long its frame is. The frame is split into equal
-steps no longer than the scene's timestep; without packets simulated time stands still.
+The autopilot leads: it says with each packet how long its frame is, in whole microseconds, since
+its clock counts those. The frame is split into equal steps no longer than the scene's timestep;
+without packets simulated time stands still.
 """
 
 import time
@@ -10,26 +11,26 @@ from fractions import Fraction
 from typing import Any
 
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
+from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     LONGEST_PACKET,
-    JsonState,
     ServoPacket,
     read_servo_packet,
     write_state,
 )
+from fluid_sim_ros.mavlink.ardupilot.json_state import StateReader
+from fluid_sim_ros.mavlink.ardupilot.station import Station
+from fluid_sim_ros.mavlink.ardupilot.udp_port import Datagram, UdpPort
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
-from fluid_sim_ros.mavlink.mapping import ActuatorMap
-from fluid_sim_ros.mavlink.sockets import Datagram, UdpPort
-from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
-from fluid_sim_ros.schema.sensors import SensorsFile
-from fluid_sim_ros.sensors import SensorSuite
+from fluid_sim_ros.mavlink.silence import REPORT_AFTER, Silence
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
 
 #: Port of the first instance, and from one instance to the next.
 FIRST_PORT, PORT_STEP = 9002, 10
-#: What a rangefinder without an echo says [m].
-_OUT_OF_RANGE = 1000.0
+#: ArduPilot adds the difference of two timestamps to its clock and drops what is less than 1 us.
+#: Each timestamp is ahead by so much more [s], or rounding would cost 1 us in many frames.
+_AHEAD = 1e-10
 
 
 class ArduPilotBridge(AutopilotLink):
@@ -58,17 +59,15 @@ class ArduPilotBridge(AutopilotLink):
         actuators: ActuatorMap,
     ) -> None:
         super().__init__(simulation, options, surroundings, actuators)
-        self._truth = TruthReader(simulation, options.vehicle)
-        self._simulation = simulation
-        self._suite = _sensors(simulation, options.vehicle)
-        self._aerial = simulation.streams == ('wind',)
+        self._state = StateReader(simulation, options.vehicle)
         self._longest = exact(simulation.timestep)
         port = options.port or FIRST_PORT + PORT_STEP * options.instance
         self._port = UdpPort(options.address, port, LONGEST_PACKET)
         self.port = self._port.port
         self._peer: Any = None
-        self._heard_at = 0.0
-        self._gone = False
+        self._station = Station(options.instance)
+        self._heard_at = self._silent_at = 0.0
+        self._silence = Silence(self.name, options, surroundings, self.counters)
         self._count = -1
         self._rate = 0
         self._steps = 0  # of a frame
@@ -78,15 +77,17 @@ class ArduPilotBridge(AutopilotLink):
         self._waiting: ServoPacket | None = None  # first packet of a process that has restarted
         self._reply = b''
         self._sent_ns = 0
+        self._frames = 0  # that this process has been told the end of
         self._offset_ns = 0  # from simulated time to that of the autopilot
 
     # ---- the pacing's side -----------------------------------------------------------------
 
     def begin(self, simulation: Simulation) -> None:
         """Let the autopilot's time go on where a reset has set the simulation's back."""
+        self._heard_at = time.monotonic()
         now_ns = simulation.time_ns
         if now_ns + self._offset_ns < self._sent_ns:
-            frame_ns = 1_000_000_000 // self._rate if self._owed else 0
+            frame_ns = 1000 * frame_us(self._rate) if self._owed else 0
             self._offset_ns = self._sent_ns + frame_ns - now_ns
         if simulation.step_count == 0:  # it has the scene's timestep again
             self._rate = self._frame_end = 0
@@ -105,7 +106,7 @@ class ArduPilotBridge(AutopilotLink):
         if packet is None:
             packet = self._next_packet(simulation)
         if packet is None:
-            return False
+            return self._silence.given_up and self._go_on_alone(simulation)
         self._start_frame(simulation, packet)
         return True
 
@@ -118,9 +119,22 @@ class ArduPilotBridge(AutopilotLink):
     def _trouble(self) -> Trouble | None:
         if self._peer is None:
             return 'warn', f'waiting for ArduPilot on UDP port {self.port}'
-        if self._gone:
-            return 'error', 'ArduPilot is silent; waiting for it'
+        if self._silence.given_up:
+            return 'error', 'ArduPilot is silent: going on at real time'
+        if self._silence.reported:
+            return 'error', 'ArduPilot is silent; simulated time waits for it'
         return None
+
+    def reasons(self) -> list[str]:
+        """Return what may be wrong while it has not answered yet, most likely first."""
+        reasons = [
+            'ArduPilot is not started, or without --model JSON:127.0.0.1',
+            f'it is of another instance: it sends to UDP port {FIRST_PORT} + {PORT_STEP} x '
+            f'instance (-I), and here it is {self.port}',
+            'it runs on another host or in a container: --model JSON:ADDRESS there, '
+            '--address here',
+        ]
+        return [self._station.line, *reasons] if self._station.waits else reasons
 
     def close(self) -> None:
         """Close the socket."""
@@ -128,53 +142,42 @@ class ArduPilotBridge(AutopilotLink):
 
     # ---- one frame -------------------------------------------------------------------------
 
-    def state(self, time_ns: int) -> JsonState:
-        """
-        Return what the autopilot gets to know of the present state.
-
-        Parameters
-        ----------
-        time_ns
-            Time of the state by the autopilot's clock [ns].
-
-        """
-        truth = self._truth.read(forces=True)
-        return JsonState(
-            time_ns, truth.rates, truth.specific_force, truth.position_ned, truth.velocity_ned,
-            truth.attitude, truth.air_ned if self._aerial else None, *self._measure(),
-        )  # fmt: skip
-
-    def _measure(self) -> tuple[float | None, float | None]:
-        """Return airspeed and distance to the ground where the vehicle has sensors for them."""
-        suite, simulation = self._suite, self._simulation
-        suite.read(simulation.tick, simulation.time_ns)  # the truth's reader has observed
-        airspeed = suite.airspeed.airspeed if suite.airspeed else None
-        if suite.rangefinder is None:
-            return airspeed, None
-        return airspeed, min(max(suite.rangefinder.distance, 0.0), _OUT_OF_RANGE)
-
     def _answer(self, simulation: Simulation) -> None:
         self._sent_ns = simulation.time_ns + self._offset_ns
-        self._reply = write_state(self.state(self._sent_ns))
+        self._frames += 1
+        time_s = self._sent_ns * 1e-9 + self._frames * _AHEAD
+        self._reply = write_state(self._state.read(time_s))
         self._owed = False
         self.counters.sent += 1
         self._drop_repeated()
         self._port.send(self._reply, self._peer)
 
     def _start_frame(self, simulation: Simulation, packet: ServoPacket) -> None:
+        if self._silence.given_up:  # its clock has stood still meanwhile
+            self._offset_ns = self._sent_ns - simulation.time_ns
+        if self._silence.reported:
+            self._silence.ends(time.monotonic() - self._silent_at)
         if packet.rate != self._rate:
             self._rate = packet.rate
-            frame = Fraction(1, packet.rate)
+            frame = Fraction(frame_us(packet.rate), 1_000_000)
             self._steps = -int(-frame // self._longest)  # rounded up
             timestep = frame / self._steps
             simulation.set_timestep(timestep)
             if self._surroundings.log is not None:
                 self._surroundings.log.event(timestep=str(timestep))
+        if self._count >= 0:
+            self.counters.answered += 1
         self._count = packet.count
         self._drive(packet.pulses)
-        self.counters.answered += 1
         self._frame_end = simulation.step_count + self._steps
         self._owed = True
+
+    def _go_on_alone(self, simulation: Simulation) -> bool:
+        """Begin a while at real time (it was waited for as long), with everything at rest."""
+        self._commands.set(*self._actuators.rest)
+        self._owed = False
+        self._frame_end = simulation.step_count + max(1, round(SLICE / simulation.timestep))
+        return True
 
     # ---- packets ---------------------------------------------------------------------------
 
@@ -195,9 +198,6 @@ class ArduPilotBridge(AutopilotLink):
         if sender != self._peer and not self._adopt(sender, now):
             return None
         self._heard_at = now
-        if self._gone:
-            self._gone = False
-            self._surroundings.report('back', 'ArduPilot answers again')
         if packet.count == self._count:
             self.counters.repeated += 1
             if self._reply:
@@ -226,19 +226,19 @@ class ArduPilotBridge(AutopilotLink):
 
     def _adopt(self, sender: Any, now: float) -> bool:
         """Take a new sender as the autopilot, unless the present one is still there."""
-        if self._peer is not None and now - self._heard_at < self._timeout:
+        if self._peer is not None and now - self._heard_at < REPORT_AFTER:
             self.counters.strangers += 1
             return False
         self._peer = sender
         self.counters.connections += 1
-        self._surroundings.report('connected', f'ArduPilot at {_text(sender)}')
+        self._surroundings.inform(f'ArduPilot at {_text(sender)}')
         return True
 
     def _restart(self, simulation: Simulation, packet: ServoPacket) -> None:
         """Begin anew with a process whose frames count from the start again."""
         self.counters.restarts += 1
-        self._surroundings.report('restarted', 'ArduPilot has restarted: back to the start')
-        self._sent_ns = self._offset_ns = 0
+        self._surroundings.inform('ArduPilot has restarted: back to the start')
+        self._sent_ns = self._offset_ns = self._frames = 0
         self._count, self._rate, self._reply = -1, 0, b''
         self._owed = False
         self._surroundings.reset()
@@ -246,23 +246,31 @@ class ArduPilotBridge(AutopilotLink):
         self._waiting = packet
 
     def _note_silence(self, now: float) -> None:
-        if self._peer is not None and not self._gone and now - self._heard_at > self._timeout:
-            self._gone = True
-            self.counters.gone += 1
-            self._surroundings.report(
-                'gone', f'ArduPilot: nothing for {self._timeout:g} s; waiting on port {self.port}'
-            )
+        if self._peer is None:
+            if self._station.look():
+                self._surroundings.report('station', self._station.line)
+        else:
+            if not self._silence.reported:
+                self._silent_at = self._heard_at
+            self._silence.lasts(now - self._heard_at)
 
 
-def _sensors(simulation: Simulation, vehicle: str) -> SensorSuite:
-    """Return the sensors that ArduPilot does not make up itself, read at every frame."""
-    config, chosen = simulation.vehicle(vehicle).sensors, {}
-    for kind in ('rangefinder', 'airspeed'):
-        sensor = getattr(config, kind)
-        if sensor is not None:
-            rate = 1 / exact(simulation.timestep)
-            chosen[kind] = sensor.model_copy(update={'rate': rate, 'latency': 0.0})
-    return SensorSuite(simulation, vehicle, SensorsFile().model_copy(update=chosen))
+def frame_us(rate: int) -> int:
+    """
+    Return the length of a frame.
+
+    Parameters
+    ----------
+    rate
+        Frames per second that ArduPilot states [Hz].
+
+    Returns
+    -------
+    int
+        [us], rounded down, as ArduPilot's own clock does.
+
+    """
+    return 1_000_000 // rate
 
 
 def _text(sender: Any) -> str:

@@ -64,8 +64,8 @@ class JsonState:
 
     Attributes
     ----------
-    time_ns
-        Time of the state [ns].
+    time_s
+        Time of the state by the autopilot's clock [s].
     gyro, specific_force
         Angular velocity [rad/s] and specific force [m/s^2], body axes (FRD).
     position, velocity
@@ -81,7 +81,7 @@ class JsonState:
 
     """
 
-    time_ns: int
+    time_s: float
     gyro: Vector3
     specific_force: Vector3
     position: Vector3
@@ -93,7 +93,7 @@ class JsonState:
 
 
 _STATE = (
-    '\n{"timestamp":%.9f,"imu":{"gyro":[%.9g,%.9g,%.9g],"accel_body":[%.9g,%.9g,%.9g]},'
+    '\n{"timestamp":%.10f,"imu":{"gyro":[%.9g,%.9g,%.9g],"accel_body":[%.9g,%.9g,%.9g]},'
     '"position":[%.12g,%.12g,%.12g],"attitude":[%.9g,%.9g,%.9g],'
     '"quaternion":[%.9g,%.9g,%.9g,%.9g],"velocity":[%.9g,%.9g,%.9g]'
 )
@@ -115,7 +115,7 @@ def write_state(state: JsonState) -> bytes:
 
     """
     text = _STATE % (
-        state.time_ns * 1e-9, *state.gyro, *state.specific_force, *state.position,
+        state.time_s, *state.gyro, *state.specific_force, *state.position,
         *euler(state.attitude), *state.attitude, *state.velocity,
     )  # fmt: skip
     if state.wind is not None:

@@ -1,29 +1,27 @@
 """Runs an autopilot's own program as a child: arguments, log, and an end together with ours."""
 
-import ctypes
 import os
-import shlex
 import signal
 import subprocess
 import tempfile
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
+from fluid_sim_ros.mavlink.program.command_line import command_line
+from fluid_sim_ros.mavlink.program.family import Guard, die_with_parent, ended, family_of, kill
 from fluid_sim_ros.schema.scene import Home
 
 #: Longest line of the log that is shown [bytes]; the rest follows as another.
 _LONGEST_LINE = 1000
-#: How long the program may take to end [s].
-_GRACE = 3.0
-#: So fast that ArduPilot never waits for its own clock: the bridge sets the pace.
-_SPEEDUP = 100
-_HEADING_EAST = 90  # [deg]: the identity attitude
-_PR_SET_PDEATHSIG = 1  # prctl(2)
-_LIBC = ctypes.CDLL(None)  # found before the fork: between fork and exec only calls are safe
+#: How long a program may take to end when it is asked to [s]; ArduPilot does not listen.
+_GRACE = {'px4': 3.0, 'ardupilot': 0.5}
+#: How long the reader may take to show what was written before the end [s].
+_LAST_LINES = 1.0
 
 
 class Program:
@@ -54,94 +52,78 @@ class Program:
         home: Home,
         show: Callable[[str], None],
     ) -> None:
+        self._grace = _GRACE[options.protocol]
+        self._end: int | None = None
         self._folder = tempfile.TemporaryDirectory(prefix='fluid_sim_autopilot_')
-        arguments = command_line(command, options, file, home, Path(self._folder.name))
         airframe = {'PX4_SYS_AUTOSTART': file.airframe} if options.protocol == 'px4' else {}
         try:
+            arguments = command_line(command, options, file, home, Path(self._folder.name))
             self._process = subprocess.Popen(
                 arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT, env={**os.environ, **airframe},
                 # a group of its own: Ctrl-C ends the simulation, which ends the program
-                start_new_session=True, preexec_fn=_die_with_parent,
+                start_new_session=True, preexec_fn=die_with_parent,
             )  # fmt: skip
-        except OSError as error:
+        except (ConfigError, OSError) as error:
             self._folder.cleanup()
-            raise ConfigError(f'--exec {arguments[0]}: {error.strerror}') from None
+            if isinstance(error, OSError):
+                raise ConfigError(f'--exec {arguments[0]}: {error.strerror}') from None
+            raise
+        self._guard = Guard(self._process.pid)
         self._reader = threading.Thread(target=self._read, args=(show,), daemon=True)
         self._reader.start()
 
     @property
     def exit_code(self) -> int | None:
-        """How it ended, or None while it runs."""
-        return self._process.poll()
+        """How it ended, minus the number of a signal that ended it, or None while it runs."""
+        if self._end is None:
+            self._end = ended(self._process.pid, 0.0)
+        return self._end
 
     def _read(self, show: Callable[[str], None]) -> None:
         stream = self._process.stdout
         while stream is not None and (line := stream.readline(_LONGEST_LINE)):
-            show(line.decode(errors='replace').rstrip())
+            with suppress(OSError):  # nobody to show it to; read on, or the program would wait
+                show(line.decode(errors='replace').rstrip())
+
+    def wait_for_output(self) -> None:
+        """Let what it wrote before its end be shown first."""
+        self._reader.join(_LAST_LINES)
 
     def close(self) -> None:
         """End it, and whatever it has started."""
-        for number in (signal.SIGTERM, signal.SIGKILL):
-            if self._process.poll() is None:
-                os.killpg(self._process.pid, number)
-                try:
-                    self._process.wait(_GRACE)
-                except subprocess.TimeoutExpired:
-                    continue
-        self._reader.join(_GRACE)
+        identity = self._process.pid
+        family = family_of(identity)
+        if self.exit_code is None:
+            os.killpg(identity, signal.SIGTERM)
+            self._end = ended(identity, self._grace)
+        # not reaped yet, so that its id, that of the group, is still its own
+        with suppress(ProcessLookupError):
+            os.killpg(identity, signal.SIGKILL)
+        kill(family)
+        self._process.wait()
+        self._end = self._end if self._end is not None else self._process.returncode
+        self._guard.dismiss()
+        self._reader.join(_LAST_LINES)
         self._folder.cleanup()
 
 
-def command_line(
-    command: str, options: AutopilotOptions, file: AutopilotFile, home: Home, folder: Path
-) -> list[str]:
+def ending(code: int) -> str:
     """
-    Return the arguments that start an autopilot; its parameters become a file in ``folder``.
+    Return in words how a program has ended.
 
     Parameters
     ----------
-    command
-        What the user would type, as one line.
-    options
-        Protocol, instance and address.
-    file
-        The mapping, which holds ArduPilot's parameters.
-    home
-        Where the vehicle starts [deg], [deg], [m].
-    folder
-        Where the file of parameters is written.
+    code
+        As ``Program.exit_code``.
 
     Returns
     -------
-    arguments
-        The program and its arguments.
-
-    Raises
-    ------
-    ConfigError
-        If the command cannot be read.
+    str
+        ``ended with code 255``, ``was ended by SIGKILL``.
 
     """
-    try:
-        arguments = shlex.split(command)
-    except ValueError as error:
-        raise ConfigError(f'--exec {command}: {error}') from None
-    if not arguments:
-        raise ConfigError('--exec: names no program')
-    arguments[0] = str(Path(arguments[0]).expanduser())
-    if options.protocol == 'px4':
-        return [*arguments, '-d', '-i', str(options.instance)]
-    place = f'{home.latitude},{home.longitude},{home.altitude},{_HEADING_EAST}'
-    added = ['--model', f'JSON:{options.address}', '--home', place,
-             '--speedup', str(_SPEEDUP), '-I', str(options.instance)]  # fmt: skip
-    if file.parameters and '--defaults' not in arguments:
-        path = folder / 'parameters.parm'
-        path.write_text(''.join(f'{key} {value:g}\n' for key, value in file.parameters.items()))
-        added += ['--defaults', str(path)]
-    return [*arguments, *added]
-
-
-def _die_with_parent() -> None:
-    """Ask the kernel to end this process when the one that started it ends."""
-    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    if code >= 0:
+        return f'ended with code {code}'
+    known = {number.value: number.name for number in signal.Signals}
+    return f'was ended by {known.get(-code, f"signal {-code}")}'

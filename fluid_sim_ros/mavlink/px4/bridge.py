@@ -5,6 +5,9 @@ The simulation leads: PX4's clock is the time of the message that it got last. S
 stands still while nobody is connected, and an answer is waited for; but PX4 does not answer
 before its start is over, nor in some states, and must get its time all the same. Then the loop
 free-wheels: without an answer it goes on at real time.
+
+A PX4 that has answered and is silent may be halted, or slow: it is waited for. Or it goes on and
+sends no outputs, as in flight termination: it still reads what it gets, which shows.
 """
 
 import time
@@ -13,12 +16,15 @@ from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
+from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
-from fluid_sim_ros.mavlink.mapping import ActuatorMap, AutopilotFile
+from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.px4.hil_answers import Actuators, HilReader
 from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.px4.hil_state import HilState
-from fluid_sim_ros.mavlink.sockets import TcpServer
+from fluid_sim_ros.mavlink.px4.reading import Reading
+from fluid_sim_ros.mavlink.px4.tcp_server import TcpServer
+from fluid_sim_ros.mavlink.silence import Silence
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
@@ -78,7 +84,9 @@ class Px4Bridge(AutopilotLink):
         self._armed = False
         self._sent_us = 0
         self._answered_us = 0
-        self._asked_at = 0.0
+        self._asked_at = self._silent_at = self._lost_at = 0.0
+        self._silence = Silence(self.name, options, surroundings, self.counters)
+        self._reading = Reading(self._server)
         self._offset_us = 0  # from simulated time to that of the autopilot
 
     # ---- the pacing's side -----------------------------------------------------------------
@@ -101,11 +109,11 @@ class Px4Bridge(AutopilotLink):
         if simulation.step_count % self._period or not now_us:
             return True  # PX4 takes no message of time 0
         if now_us != self._sent_us:
-            if self._server.stuck:  # it has not read for seconds: it is halted
+            if self._server.stuck and not self._silence.given_up:  # it is halted at its start
                 self._server.send()
                 self._receive(SLICE)
                 return False
-            self._send(simulation, now_us)
+            self._send(now_us)
         return self._wait()
 
     def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
@@ -138,12 +146,31 @@ class Px4Bridge(AutopilotLink):
         server = self._server
         if not server.connected:
             return 'warn', f'waiting for PX4 on TCP port {self.port}'
+        if self._silence.given_up:
+            return 'error', 'PX4 sends no outputs: going on at real time'
+        if self._silence.reported:
+            state = '' if self._reading.goes_on else ' (it does not read: halted?)'
+            return 'error', f'PX4 is silent{state}; simulated time waits for it'
         if server.stuck:
             return 'error', 'PX4 does not read; waiting for it'
         if not self._locked:
-            line = 'PX4 is silent' if self.counters.gone else 'PX4 is connected, no answer yet'
-            return 'warn', f'{line}: going on at real time'
+            return 'warn', 'PX4 is connected, no answer yet: going on at real time'
         return None
+
+    def reasons(self) -> list[str]:
+        """Return what may be wrong while it has not answered yet, most likely first."""
+        if self._server.connected:
+            return [
+                'PX4 is still starting: wait longer',
+                'an underwater airframe does not answer before it has a mode and sticks',
+            ]
+        return [
+            'PX4 is not started, or not with an airframe of a simulation '
+            '(PX4_SYS_AUTOSTART, as in the mapping)',
+            f'it is of another instance: it connects to TCP port {FIRST_PORT} + instance, and '
+            f'here it is {self.port}',
+            'it runs on another host or in a container: PX4_SIM_HOSTNAME there, --address here',
+        ]
 
     def close(self) -> None:
         """Close the connection and the port."""
@@ -157,41 +184,45 @@ class Px4Bridge(AutopilotLink):
     def _greet(self) -> bool:
         """Wait a short while for a connection; True when one is new and time may go on."""
         if not self._server.accept(SLICE):
+            if self._flown:
+                self._silence.absent(time.monotonic() - self._lost_at)
             return False
         self.counters.connections += 1
         self._writer, self._reader = HilWriter(), HilReader()
         self._locked = False
         self._sent_us = self._answered_us = self._offset_us = 0
-        self._surroundings.report('connected', f'PX4 at {self._server.peer}')
+        self._surroundings.inform(f'PX4 at {self._server.peer}')
         if not self._flown:
             self._flown = True
             return True
         self.counters.restarts += 1
+        self._surroundings.inform('PX4 has restarted: back to the start')
         self._surroundings.reset()
         return False
 
-    def _send(self, simulation: Simulation, now_us: int) -> None:
+    def _send(self, now_us: int) -> None:
         self._sent_us = now_us
+        self._asked_at = time.monotonic()
+        if self._server.stuck:  # it was given up, and may come back
+            self._server.send()
+            return
         self.counters.sent += 1
         self._server.send(self._state.messages(self._writer, now_us))
-        self._asked_at = time.monotonic()
 
     def _wait(self) -> bool:
         """Wait for the answer; True when the simulation may go on, with it or without."""
-        patience = self._timeout if self._locked else _FREE_WHEEL
         while True:
-            left = self._asked_at + patience - time.monotonic()
-            if not self._receive(min(left, SLICE)):
+            left = self._asked_at + _FREE_WHEEL - time.monotonic()
+            if not self._receive(SLICE if self._locked else min(left, SLICE)):
                 return False
             if self._answered_us == self._sent_us:
                 return True
-            if self._locked and patience != self._timeout:
-                patience = self._timeout
-            elif left <= 0:
-                self._note_silence()
+            if self._locked:  # else serve requests, and come back
+                return self._is_given_up(time.monotonic() - self._asked_at)
+            if left <= 0:
                 return True
-            elif left > SLICE:
-                return False  # serve requests, and come back
+            if left > SLICE:
+                return False
 
     def _receive(self, timeout: float) -> bool:
         """Take in what arrives within ``timeout`` [s]; False when the connection has gone."""
@@ -222,27 +253,39 @@ class Px4Bridge(AutopilotLink):
             counters.answered += 1
         else:
             counters.late += 1
-        if not self._locked:
-            self._locked = True
-            if not actuators.lockstep:
-                self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
+        if not self._locked and not actuators.lockstep:
+            self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
+        self._locked = True
+        if self._silence.reported:
+            self._silence.ends(time.monotonic() - self._silent_at)
+            self._reading.forget()
         self._armed = actuators.armed
         self._drive(actuators.controls)
 
     # ---- when it does not answer -----------------------------------------------------------
 
-    def _note_silence(self) -> None:
-        if not self._locked:
-            return
-        self.counters.missed += 1
-        self.counters.gone += 1
-        self._locked = False
-        self._surroundings.report(
-            'gone', f'PX4: no answer for {self._timeout:g} s; going on at real time'
-        )
+    def _is_given_up(self, seconds: float) -> bool:
+        """Note how long the answer is waited for; True when time goes on without."""
+        if not self._silence.reported:
+            self._silent_at = self._asked_at
+        given_up = self._silence.lasts(seconds)
+        if not given_up and self._reading.look(seconds, self._writer.heartbeat):
+            self._silence.give_up(
+                'takes its sensors, but sends no outputs (flight termination?): thrust to rest, '
+                'going on at real time'
+            )
+            given_up = True
+        if given_up:
+            self.counters.missed += 1
+            self._locked = False
+            self._commands.set(*self._actuators.rest)
+        return given_up
 
     def _lost(self) -> None:
         self.counters.disconnections += 1
+        self._lost_at = time.monotonic()
+        self._silence.forget()
+        self._reading.forget()
         self._commands.set(*self._actuators.rest)
         self._armed = False
         self._surroundings.report(

@@ -167,14 +167,14 @@ class HilWriter:
         geodetic: Vector3,
         velocity_ned: Vector3,
         airspeed: float,
-        specific_force: Vector3,
+        acceleration_ned: Vector3,
     ) -> bytes:
         """
         Return HIL_STATE_QUATERNION, the true state for the autopilot's log.
 
         In the message [m/s] become cm/s, and [m/s^2] thousandths of it, saturated at their 16
-        bits. (The message's definition says thousandths of g; PX4 reads
-        thousandths of m/s^2.)
+        bits. (The message's definition says thousandths of g along the body's axes; PX4 reads
+        thousandths of m/s^2, and logs them as the derivative of the velocity.)
 
         Parameters
         ----------
@@ -190,8 +190,8 @@ class HilWriter:
             Over ground, NED axes [m/s], three numbers.
         airspeed
             Speed through the medium [m/s].
-        specific_force
-            FRD axes [m/s^2], three numbers.
+        acceleration_ned
+            Derivative of the velocity, NED axes [m/s^2], three numbers.
 
         Returns
         -------
@@ -206,7 +206,7 @@ class HilWriter:
                 time_us, list(attitude), *rates,
                 round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
                 *(_int16(100 * v) for v in velocity_ned), air, air,
-                *(_int16(1000 * a) for a in specific_force),
+                *(_int16(1000 * a) for a in acceleration_ned),
             )
         )  # fmt: skip
 

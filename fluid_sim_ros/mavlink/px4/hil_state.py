@@ -1,5 +1,6 @@
 """What PX4 gets to know of its vehicle at every exchange: its sensors and, for its log, truth."""
 
+import math
 import random
 from fractions import Fraction
 from typing import TypeVar
@@ -18,8 +19,10 @@ from fluid_sim_ros.physics.environment.atmosphere import (
 from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.sensors.geodesy import LocalFrame
+from fluid_sim_ros.sensors.gnss import Gnss
 from fluid_sim_ros.sensors.sensor import Sensor
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.step_clock import exact
 
 Present = TypeVar('Present', bound=Sensor)
 
@@ -68,7 +71,9 @@ class HilState:
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home
         self._frame, self._altitude = LocalFrame(home), home.altitude
-        config = _for_px4(simulation.vehicle(vehicle).sensors, file.vision)
+        latency = Fraction(math.ceil(exact(file.gnss_delay) * RATE), RATE)
+        self._moved = float(latency) - file.gnss_delay  # [s] between two exchanges
+        config = _for_px4(simulation.vehicle(vehicle).sensors, file.vision, latency)
         self._suite = suite = SensorSuite(simulation, vehicle, config)
         self._imu = _there(suite.imu, 'imu', vehicle)
         self._magnetometer = _there(suite.magnetometer, 'magnetometer', vehicle)
@@ -93,30 +98,36 @@ class HilState:
         Returns
         -------
         bytes
-            MAVLink frames, HIL_SENSOR last.
+            MAVLink frames. HIL_SENSOR is the first: PX4's clock is its time, and stamps the rest.
 
         """
         self._suite.update()
         count, self._count = self._count, self._count + 1
-        readings = self._readings()
-        data = b'' if count % _HEARTBEAT else writer.heartbeat()
+        readings, others = self._readings(), b''
         if self._vision and count % _PRESSURE == 0:
             truth = self._truth.read(forces=False)
-            data += writer.odometry(
+            others += writer.odometry(
                 now_us, truth.position_ned, truth.attitude, truth.velocity_frd, truth.rates,
                 _POSE_VARIANCE, _TWIST_VARIANCE,
             )  # fmt: skip
             self._read_pressure(readings, -truth.position_ned[2])
         if self._gnss is not None and self._gnss.fresh:
-            gnss = self._gnss
-            velocity = enu_to_ned(gnss.velocity_w.tolist())
-            data += writer.gps(now_us, gnss.latitude, gnss.longitude, gnss.altitude, velocity)
+            others += self._fix(writer, now_us, self._gnss)
         if count % _TRUTH == 0:
-            data += self._true_state(writer, now_us)
+            others += self._true_state(writer, now_us)
         if count % _STICKS == 0 and (pulses := self._sticks.pulses()):
-            data += writer.rc_channels(now_us // 1000, pulses)
-        # last, because it is what PX4 answers to
-        return data + writer.sensors(now_us, readings)
+            others += writer.rc_channels(now_us // 1000, pulses)
+        if count % _HEARTBEAT == 0:
+            others += writer.heartbeat()
+        return writer.sensors(now_us, readings) + others
+
+    def _fix(self, writer: HilWriter, now_us: int, gnss: Gnss) -> bytes:
+        """Return HIL_GPS of a fix that is as old as PX4 takes it for."""
+        velocity_w = gnss.velocity_w.tolist()
+        place = [
+            p + self._moved * v for p, v in zip(gnss.position_w.tolist(), velocity_w, strict=True)
+        ]
+        return writer.gps(now_us, *self._frame.geodetic(*place), enu_to_ned(velocity_w))
 
     def _readings(self) -> SensorReadings:
         imu, barometer, airspeed = self._imu, self._barometer, self._airspeed
@@ -147,7 +158,7 @@ class HilState:
         north, east, down = truth.position_ned
         return writer.truth(
             now_us, truth.attitude, truth.rates, self._frame.geodetic(east, north, -down),
-            truth.velocity_ned, truth.airspeed, truth.specific_force,
+            truth.velocity_ned, truth.airspeed, truth.acceleration_ned,
         )  # fmt: skip
 
 
@@ -161,15 +172,18 @@ def _there(sensor: Present | None, kind: str, vehicle: str) -> Present:
     return sensor
 
 
-def _for_px4(sensors: SensorsFile, vision: bool) -> SensorsFile:
-    """Return the sensors that PX4 takes: at its rates, without latency, as its SITL expects."""
+def _for_px4(sensors: SensorsFile, vision: bool, gnss_latency: Fraction) -> SensorsFile:
+    """Return the sensors that PX4 takes: at its rates, and as late as it takes them for [s]."""
     periods = {'imu': 1, 'magnetometer': _FIELD, 'airspeed': _PRESSURE}
     if not vision:
         periods |= {'barometer': _PRESSURE, 'gnss': _TRUTH}
     chosen = {
         # a fraction, because 83.3 Hz has no decimal number
         kind: getattr(sensors, kind).model_copy(
-            update={'rate': Fraction(RATE, period), 'latency': 0.0}
+            update={
+                'rate': Fraction(RATE, period),
+                'latency': gnss_latency if kind == 'gnss' else 0.0,
+            }
         )
         for kind, period in periods.items()
         if getattr(sensors, kind) is not None

@@ -8,7 +8,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.loop.autopilot_port import LOOPBACK, PROTOCOLS
+from fluid_sim_ros.loop.autopilot_port import LOOPBACK, PROTOCOLS, TIMEOUT_RULES
 from fluid_sim_ros.messages import commands, state_topics
 from fluid_sim_ros.ros.parameters import table as parameter_table
 from fluid_sim_ros.ros.parameters.table import Declared
@@ -17,7 +17,6 @@ from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
 
 PACINGS = ('realtime', 'free', 'lockstep')
 MATCHES = ('stamp', 'count')
-TIMEOUT_RULES = ('hold', 'continue', 'stop')
 RECORD_POLICIES = ('block', 'drop')
 THRUST_UNITS = ('newton', 'normalized')
 
@@ -114,7 +113,12 @@ TABLE: dict[str, Declared] = {
     ),
     'autopilot.address': Declared(LOOPBACK, 'address to listen on; loopback = this host only'),
     'autopilot.timeout': Declared(
-        1.0, '[s] wall time without an answer after which it counts as gone', low=0.01, high=3600
+        60.0, '[s] wall time that a silent one is waited for; simulated time stands still',
+        low=0.01, high=86400,
+    ),
+    'autopilot.on_timeout': Declared(
+        'continue', 'what follows: hold = wait on, continue = thrust to rest, stop = error',
+        choices=TIMEOUT_RULES,
     ),
     'autopilot.sticks_timeout': Declared(
         0.5,

@@ -14,22 +14,9 @@ from test.support.autopilots.px4_stand_in import Px4
 IDLE = [0.0] * 4
 
 
-def test_a_stall_is_reported_and_survived(monkeypatch):
-    monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.02)
-    with BridgedFlight('x500_ground', 'px4', timeout=0.2).running() as flight:
-        px4 = Px4(flight.port, silent=0)
-        px4.exchange(IDLE)
-        assert waited(lambda: flight.bridge.counters.gone == 1)
-        assert ('gone', 'PX4: no answer for 0.2 s; going on at real time') in flight.reports
-        px4.rest = b''  # what came meanwhile is answered all together
-        for _ in range(20):
-            px4.exchange(IDLE)
-        assert waited(lambda: flight.bridge.status().level == 'ok')
-
-
-def test_a_px4_that_is_halted_stops_time_and_goes_on(monkeypatch):
+def test_a_px4_that_is_halted_at_its_start_stops_time_and_goes_on(monkeypatch):
     monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.0)
-    with BridgedFlight('x500_ground', 'px4', timeout=0.2).running() as flight:
+    with BridgedFlight('x500_ground', 'px4').running() as flight:
         px4 = Px4(flight.port, silent=0)
 
         def time_stands_still():  # the kernel's buffers grow while they fill

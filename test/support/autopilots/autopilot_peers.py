@@ -48,7 +48,9 @@ class BridgedFlight:
         self.reports: list[tuple[str, str]] = []
         self.simulation = Simulation(scene, timestep=timestep)
         surroundings = Surroundings(
-            report=lambda key, line: self.reports.append((key, line)), reset=self._reset
+            report=lambda key, line: self.reports.append((key, line)),
+            inform=lambda line: self.reports.append(('', line)),
+            reset=self._reset,
         )
         # a port of the system's choice, so that tests run side by side
         chosen = AutopilotOptions(protocol, **{'port': free_port(protocol), **options})

@@ -24,10 +24,16 @@ KEYS = (
 
 
 class JsonReader:
-    """Reads replies; time must go on."""
+    """
+    Reads replies; time must go on.
+
+    ``clock_us`` is ArduPilot's clock, as whole microseconds: it adds the difference of timestamps
+    in floating point, and drops what is less than one.
+    """
 
     def __init__(self) -> None:
         self.time = -1.0
+        self.clock_us = 0
 
     def read(self, data: bytes) -> dict[str, list[float]]:
         text = data.decode('ascii')
@@ -48,5 +54,7 @@ class JsonReader:
             found[key] = [float(number) for number in match.groups()]
         assert 'attitude' in found or 'quaternion' in found
         assert found['timestamp'][0] > self.time, 'time must go on'
+        passed = found['timestamp'][0] - max(self.time, 0.0)
+        self.clock_us = int(float(self.clock_us) + passed * 1e6)
         self.time = found['timestamp'][0]
         return found

@@ -3,7 +3,8 @@ A stand-in for PX4: its bytes and its rules for sensor messages.
 
 It knows nothing of this package. Bytes go through the codec by hand (hil_wire); the rules are
 those of PX4's simulator module: groups of bits count only as a whole, time must go on, readings
-must not stand still.
+must not stand still. Its clock is the time of the last HIL_SENSOR, and whatever else arrives is
+stamped with that.
 """
 
 import math
@@ -66,6 +67,7 @@ class Px4:
         self.latest: dict[str, dict] = {}
         self.counts: dict[str, int] = {}
         self.rest = b''
+        self.clock_us = 0
         self.sequence = 0
         self.socket = self._connect(port)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -98,6 +100,12 @@ class Px4:
         sensors = [fields for name, fields in messages if name == 'HIL_SENSOR']
         for name, fields in messages:
             self.latest[name] = fields
+            if name == 'HIL_SENSOR':
+                self.clock_us = fields['time_usec']
+            elif 'time_usec' in fields:
+                assert fields['time_usec'] == self.clock_us, (
+                    f'{name} gets the stamp of another time'
+                )
             self.counts[name] = self.counts.get(name, 0) + 1
         if not sensors:
             return self.sensors()

@@ -1,0 +1,178 @@
+"""Turns the outputs of an autopilot into commands of a vehicle, as a mapping says."""
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
+from fluid_sim_ros.mavlink.mapping import ActuatorFile, AutopilotFile
+from fluid_sim_ros.physics.t200 import t200_table
+from fluid_sim_ros.scene.vehicle import Vehicle
+
+#: Outputs of a HIL_ACTUATOR_CONTROLS and of the longest servo packet.
+OUTPUTS = {'px4': 16, 'ardupilot': 32}
+#: An output that drives nothing counts as commanded when it has moved by this share of 1.
+_MOVED = 0.05
+#: Values of pulse width [us] are larger than this, controls of PX4 are not.
+_PULSE = 100.0
+#: Every so many answers of the autopilot they are looked through.
+_LOOK = 25
+
+Curve = Callable[[float], float]
+
+
+class ActuatorMap:
+    """
+    Turns the outputs of an autopilot into commands of a vehicle.
+
+    Parameters
+    ----------
+    file, path
+        The mapping and where it was read.
+    vehicle
+        What it drives.
+
+    Attributes
+    ----------
+    stray
+        Numbers of outputs that moved and drive nothing.
+
+    Raises
+    ------
+    ConfigError
+        If a thruster or joint is not driven exactly once, or an output stands twice.
+
+    """
+
+    def __init__(self, file: AutopilotFile, path: Path, vehicle: Vehicle) -> None:
+        outputs = [a.output for a in file.actuators]
+        for output in outputs:
+            if outputs.count(output) > 1 or output > OUTPUTS[file.protocol]:
+                allowed = f'1 to {OUTPUTS[file.protocol]}, each once'
+                raise ConfigError(f"{path}: key 'actuators': output {output}; allowed: {allowed}")
+        thrusters = {a.thruster: a for a in file.actuators if a.thruster}
+        joints = {a.joint: a for a in file.actuators if a.joint}
+        _check_all(path, 'thruster', [a.thruster for a in file.actuators], vehicle.thrusters)
+        _check_all(path, 'joint', [a.joint for a in file.actuators], vehicle.joints)
+        self._thrusters = [
+            (thrusters[name].output - 1, _curve(thrusters[name], *limits))
+            for name, limits in zip(vehicle.thrusters, vehicle.thrust_range.tolist(), strict=True)
+        ]
+        self._joints = [
+            (joints[name].output - 1, _curve(joints[name], *limits))
+            for name, limits in zip(vehicle.joints, vehicle.joint_range.tolist(), strict=True)
+        ]
+        self._span = max(a.input[-1] - a.input[0] for a in file.actuators)
+        self._watched = sorted(set(range(1, 33)) - {*outputs, *file.ignored})
+        self._seen: Sequence[float] = ()
+        self._looks = -1
+        self.stray: list[int] = []
+        self.rest = ([0.0] * len(self._thrusters), [0.0] * len(self._joints))
+
+    def commands(self, outputs: Sequence[float]) -> tuple[list[float], list[float]]:
+        """
+        Return thrusts [N] and joint commands, each in the vehicle's order.
+
+        Parameters
+        ----------
+        outputs
+            Of the autopilot: control values or pulse widths [us], by number from 1.
+
+        Returns
+        -------
+        thrusts, joints
+            [N], and [rad] or [m] as the joint's actuator takes it.
+
+        """
+        thrusts = [curve(outputs[place]) for place, curve in self._thrusters]
+        return thrusts, [curve(outputs[place]) for place, curve in self._joints]
+
+    def look_for_stray(self, outputs: Sequence[float]) -> int | None:
+        """
+        Return an output that has moved since the first look and drives nothing, once each.
+
+        Cheap enough for every answer, because it looks at every 25th only.
+
+        Parameters
+        ----------
+        outputs
+            As for ``commands``.
+
+        """
+        self._looks += 1
+        if self._looks % _LOOK:
+            return None
+        if len(self._seen) != len(outputs):
+            self._seen = outputs
+        for number in self._watched:
+            if number > len(outputs):
+                return None
+            moved = abs(outputs[number - 1] - self._seen[number - 1]) > _MOVED * self._span
+            if moved and number not in self.stray:
+                self.stray.append(number)
+                return number
+        return None
+
+
+def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]) -> None:
+    """Raise unless each of the existing thrusters or joints is driven exactly once."""
+    driven = [name for name in driven if name]
+    for name in driven:
+        if name not in existing:
+            raise ConfigError(
+                f"{path}: {kind} '{name}' is not in the vehicle"
+                f'{did_you_mean(name, existing)} it has: {listed(existing)}'
+            )
+        if driven.count(name) > 1:
+            raise ConfigError(f"{path}: {kind} '{name}' is driven by two outputs")
+    missing = [name for name in existing if name not in driven]
+    if missing:
+        raise ConfigError(
+            f'{path}: drives {len(driven)} of {len(existing)} {kind}s; missing: {listed(missing)}'
+        )
+
+
+def _curve(actuator: ActuatorFile, low: float, high: float) -> Curve:
+    """Return the command [N or rad] of an output's value, between the actuator's limits."""
+    points = actuator.input
+    rest, full = points[-2:]
+    ahead, back = 1.0 / (full - rest), 1.0 / (rest - points[0]) if len(points) == 3 else 0.0
+    silent = rest >= _PULSE  # an output that is off sends no pulse
+    command = _by_share(actuator, low, high)
+
+    def curve(value: float) -> float:
+        share = 0.0  # also where the value is no number
+        if rest < value < math.inf:
+            share = min((value - rest) * ahead, 1.0)
+        elif -math.inf < value < rest and not (silent and value == 0):
+            share = max((value - rest) * back, -1.0)
+        return command(share)
+
+    return curve
+
+
+def _by_share(actuator: ActuatorFile, low: float, high: float) -> Curve:
+    """Return the command [N or rad] of a share of full command, -1 to 1."""
+    if actuator.reversed:
+        plain = _by_share(actuator.model_copy(update={'reversed': False}), low, high)
+        return lambda share: plain(-share)
+    if actuator.thruster and actuator.curve == 't200':
+        pulses, thrusts = t200_table(actuator.voltage).T.tolist()
+        # the table is the T200's; the limits are those of the model's thruster
+        return lambda share: min(
+            max(_interpolate(1500.0 + 400.0 * share, pulses, thrusts), low), high
+        )
+    if actuator.thruster and actuator.curve == 'rotor_speed':
+        return lambda share: share * share * (high if share >= 0 else low)
+    return lambda share: share * (high if share >= 0 else -low)
+
+
+def _interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:
+    """Return y at x between points; the first and the last y beyond them."""
+    i = bisect_right(xs, x)
+    if i == 0:
+        return ys[0]
+    if i == len(xs):
+        return ys[-1]
+    return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1])

@@ -1,0 +1,83 @@
+"""
+The port that ArduPilot sends its packets to.
+
+It waits no longer than it is told, reads bounded datagrams, and never raises for what a peer does.
+"""
+
+import socket
+from typing import Any
+
+from fluid_sim_ros.mavlink.sockets import Watch, listen
+
+#: Bytes and their sender.
+Datagram = tuple[bytes, Any]
+
+
+class UdpPort:
+    """
+    Takes datagrams on a port.
+
+    Parameters
+    ----------
+    address, port
+        Where to listen; port 0 lets the system choose.
+    longest
+        Largest datagram that is read whole [bytes]; of a longer one so much arrives that its
+        length shows.
+
+    Raises
+    ------
+    ConfigError
+        If the port is in use or the address is not one of this host.
+
+    """
+
+    def __init__(self, address: str, port: int, longest: int) -> None:
+        self._socket = listen(socket.SOCK_DGRAM, address, port, 'ardupilot')
+        self.port: int = self._socket.getsockname()[1]
+        self._longest = longest
+        self._watch = Watch(self._socket)
+
+    def receive(self, timeout: float) -> Datagram | None:
+        """
+        Return a datagram and its sender, or None when none came within ``timeout`` [s].
+
+        Parameters
+        ----------
+        timeout
+            Longest wait [s].
+
+        Returns
+        -------
+        (bytes, address) or None
+            The datagram and whom to answer.
+
+        """
+        if not self._watch.readable(timeout):
+            return None
+        try:
+            data, sender = self._socket.recvfrom(self._longest + 1)
+        except OSError:  # an earlier reply found nobody (ICMP), or it was withdrawn
+            return None
+        return data, sender
+
+    def send(self, data: bytes, receiver: Any) -> None:
+        """
+        Send a datagram; a receiver that is not there is no error.
+
+        Parameters
+        ----------
+        data
+            One datagram.
+        receiver
+            Address that ``receive`` gave.
+
+        """
+        try:
+            self._socket.sendto(data, receiver)
+        except OSError:
+            return
+
+    def close(self) -> None:
+        """Close the socket."""
+        self._socket.close()
