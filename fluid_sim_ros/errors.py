@@ -155,9 +155,11 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
         follows in the message.
 
     """
-    written = {name.lower(): name for name in known}
-    similar = difflib.get_close_matches(word.lower(), written, n=1, cutoff=_SIMILAR)
-    return f"; did you mean '{written[similar[0]]}'?" if similar else ';'
+    # foreign names may be long and many; comparing them all would take its time
+    written = {name.lower(): name for name in islice(known, 500) if len(name) <= MOST_TEXT}
+    word = word[:MOST_TEXT].lower()
+    similar = difflib.get_close_matches(word, written, n=1, cutoff=_SIMILAR)
+    return f"; did you mean '{printable(written[similar[0]])}'?" if similar else ';'
 
 
 @contextmanager

@@ -1,22 +1,15 @@
 """How ``fluid_sim chart`` and ``fluid_sim advise`` show what they found."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.cli.shared import unbroken
-
 #: So many lines on what was not tried; all of them are in the JSON.
 _MOST = 6
-#: Processor time of a simulated second.
-_COST = 'µs per s'
 
 
-def fronts_table(
-    found: Sequence[dict[str, Any]], files: Sequence[Path], lines: Sequence[str] = ()
-) -> Any:
+def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
     """
-    Return the Pareto fronts as tables, one for each problem.
+    Return the Pareto fronts as a table.
 
     Parameters
     ----------
@@ -24,8 +17,6 @@ def fronts_table(
         Results of charts.
     files
         What was written.
-    lines
-        What else a reader must know.
 
     Returns
     -------
@@ -39,25 +30,19 @@ def fronts_table(
 
     from fluid_sim_ros.lab.charts.pareto import judged
 
-    tables: list[Any] = []
+    table = Table(
+        'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
+        title='Pareto fronts',
+    )  # fmt: skip
     for result in found:
-        by = result['judged_by']
-        title = f'{escape(result["problem"])}: Pareto front by {by} error'
-        table = Table('rung', 'integrator', 'timestep', _COST, 'error', title=title)
         front = [point for point in result['points'] if point['pareto']]
         for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
             table.add_row(
-                escape(point['rung']), point['integrator'], _ms(point['timestep_s']),
-                f'{point["cpu_us_per_s"]:.4g}', f'{judged(point, by):.3g}',
+                result['problem'], escape(point['rung']), point['integrator'],
+                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
+                f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
             )  # fmt: skip
-        tables.append(table)
-        if result.get('note'):
-            tables.append(escape(f'Note: {result["note"]}.'))
-    return Group(*tables, unbroken(files), escape('\n'.join(lines)))
-
-
-def _ms(seconds: float) -> str:
-    return f'{seconds * 1e3:.3g} ms'
+    return Group(table, escape('\n'.join(map(str, files))))
 
 
 def advice_table(advice: dict[str, Any], asked: str) -> Any:
@@ -82,18 +67,17 @@ def advice_table(advice: dict[str, Any], asked: str) -> Any:
     from rich.table import Table
 
     table = Table(
-        'fluid', 'integrator', 'timestep', 'error', _COST, 'fails at',
+        'fluid', 'integrator', 'timestep', 'error', 'µs per simulated s', 'fails at',
         title=f'{advice["scene"]}: within {advice["tolerance"]:g} ({advice["metric"]}), '
         'cheapest first',
     )  # fmt: skip
     for each in advice['candidates']:
-        known, tried = each['fails_at_s'], each['tried_to_s']
-        fails = _ms(known) if known else f'> {_ms(tried)}' if tried > each['timestep'] else ''
+        fails = f'{each["fails_at_s"] * 1e3:g} ms' if each['fails_at_s'] else ''
         table.add_row(
-            each['rung'], each['integrator'], _ms(each['timestep']),
+            each['rung'], each['integrator'], f'{each["timestep"] * 1e3:g} ms',
             f'{each["error"]:.2g}', f'{each["cpu_us_per_s"]:.4g}', fails,
         )  # fmt: skip
-    return Group(table, escape('\n'.join(_lines(advice, asked))), unbroken(advice['written']))
+    return Group(table, escape('\n'.join(_lines(advice, asked))))
 
 
 def _lines(advice: dict[str, Any], asked: str) -> list[str]:
@@ -115,7 +99,7 @@ def _lines(advice: dict[str, Any], asked: str) -> list[str]:
         f'{baseline["timestep"] * 1e3:g} ms with everything on; '
         f'{bound}{choice["margin"]:.3g} times below the step at which it fails.',
         snippet(advice),
-        *(['Written:'] if advice['written'] else []),
+        *(f'written: {path}' for path in advice['written']),
     ]
 
 

@@ -9,6 +9,7 @@ fault, or a log is damaged or not repeated), 2 (wrong input), 130 (interrupted).
 import argparse
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fluid_sim_ros import __version__
@@ -104,6 +105,10 @@ def _build_parser() -> argparse.ArgumentParser:
         '--record-topics', metavar='PATTERN', nargs='+',
         help='shell patterns of the topics to record, !PATTERN: not these (default all)',
     )  # fmt: skip
+    run.add_argument(
+        '--allow-assets-from', metavar='DIR', action='append', type=Path, default=[],
+        help='folder outside of the model\'s whose files a log may hold, if the model names them',
+    )  # fmt: skip
     autopilot.add_options(run)
 
     add_command(commands, 'scenes', 'list the scenes', _scenes, _show)
@@ -144,6 +149,7 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
         realtime=arguments.pacing == 'realtime',
         record=arguments.record,
         record_topics=arguments.record_topics or ['*'],
+        allow_assets_from=arguments.allow_assets_from,
         autopilot=autopilot.chosen_run(arguments),
     )
     show(arguments.json, summary_table(result), result)
@@ -203,7 +209,7 @@ def _show(json_path: str | None, table: Any, result: object) -> None:
     if json_path is not None:
         write_json(json_path, result)
     if json_path != '-':
-        _console().print(table, crop=False)  # paths stay whole
+        _console().print(table)
 
 
 def _console() -> 'Console':

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fluid_sim_ros.cli.shared import Show, fraction
+from fluid_sim_ros.cli.shared import Show
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -33,9 +33,8 @@ def add_options(replay: argparse.ArgumentParser) -> None:
         help='fly its commands again and compare every state (exit code 1: a difference)',
     )  # fmt: skip
     replay.add_argument(
-        '--tolerance', type=fraction, default=0.0, metavar='T',
-        help='relative difference allowed with --resimulate, such as 1e-9 or 1%% (default 0: the '
-        'same bits)',
+        '--tolerance', type=float, default=0.0, metavar='T',
+        help='relative difference allowed with --resimulate (default 0: the same bits)',
     )  # fmt: skip
     replay.add_argument(
         '--with', action='append', default=[], metavar='KEY=VALUE', dest='changes',
@@ -94,7 +93,7 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     from rich.markup import escape
 
     from fluid_sim_ros.loop.recorder_port import selected
-    from fluid_sim_ros.recording.rosbag2 import recorded_topic
+    from fluid_sim_ros.recording.writing.rosbag2 import recorded_topic
     from fluid_sim_ros.ros import replay as ros
     from fluid_sim_ros.ros.process import check_domain
 

@@ -96,6 +96,7 @@ def run_scene(
     realtime: bool = False,
     record: str | Path | None = None,
     record_topics: Sequence[str] = ('*',),
+    allow_assets_from: Sequence[Path] = (),
     autopilot: AutopilotRun | None = None,
 ) -> dict[str, Any]:
     """
@@ -115,6 +116,8 @@ def run_scene(
         Keep pace with the clock instead of running free.
     record, record_topics
         MCAP file or bag folder to record to, and shell patterns of the topics.
+    allow_assets_from
+        Folders whose files the log may hold if the model names them; see ``RecorderOptions``.
     autopilot
         Who flies.
 
@@ -153,7 +156,8 @@ def run_scene(
         progress.add_task(simulation.scene.name, total=seconds)
         watcher = Watcher(simulation, progress)
         sinks: list[Sink] = [watcher]
-        with _recording(simulation, record, record_topics, sinks) as (files, log):
+        recording = _recording(simulation, record, record_topics, allow_assets_from, sinks)
+        with recording as (files, log):
             begin = time.perf_counter()
             flight = None
             if autopilot is not None:
@@ -173,6 +177,7 @@ def _recording(
     simulation: Simulation,
     path: str | Path | None,
     topics: Sequence[str],
+    folders: Sequence[Path],
     sinks: list[Sink],
 ) -> Iterator[tuple[dict[str, Any], 'RecordingSink | None']]:
     """Add a recording sink where one is asked for; give what the result says of it, and it."""
@@ -182,7 +187,7 @@ def _recording(
     with needed_for('--record'):
         from fluid_sim_ros.recording.sink import RecordingSink
     settings = {'fluid': simulation.settings.fluid or ''}
-    sink = RecordingSink(simulation, Path(path), settings, topics)
+    sink = RecordingSink(simulation, Path(path), settings, topics, folders)
     sinks.append(sink)
     files: dict[str, Any] = {'record': str(sink.recorder.paths[0])}
     try:

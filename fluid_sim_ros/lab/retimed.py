@@ -2,10 +2,10 @@
 Runs of a scene at any timestep, also at one that does not divide its events and samples.
 
 For the search of a limit: between two timesteps that fit a scene there may be a factor of 2.5.
-Events take place at their times, by a shorter step before them; states are compared at theirs, by
-a shorter step on the side; the angles of a gait change at the next step boundary.
+Events, gaits and compared states keep their times to the next step boundary.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
@@ -19,8 +19,6 @@ from fluid_sim_ros.simulation import Simulation
 
 #: Timesteps that a scene is compiled with, largest first [s]; a run's own is at most as large.
 _COMPILED = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5)
-#: Share of a step within which two times are the same [-].
-_SAME = 1e-9
 
 
 def largest_timestep(problem: Problem, rung: Rung) -> float:
@@ -68,34 +66,22 @@ def run_retimed(
     Returns
     -------
     Trajectory
-        The run, its states at the problem's times.
+        The run, its states at the step boundaries next to the problem's times.
 
     """
     simulation = _without_gait(rung).simulation(integrator, compiled)
-    step = Fraction(timestep).limit_denominator(10**12)
-    simulation.set_timestep(step)
+    simulation.set_timestep(Fraction(timestep).limit_denominator(10**12))
     watch, states = BodyWatch(simulation), []
-    stops: list[tuple[float, str, list[float]]] = [
-        (event.at, '', []) for event in rung.scene.schedule if event.at < problem.duration
-    ]
-    stops += _waves(rung, problem.duration)
-    waiting = iter(sorted(stops, key=lambda stop: stop[0]))
-    due = next(waiting, None)
+    waves = _waves(rung, simulation, problem.duration)
+    due = next(waves, None)
     try:
         for time in problem.times:
             while due is not None and due[0] <= time:
-                at, vehicle, angles = due
-                _go_on(simulation, at, step)
-                if vehicle:
-                    simulation.set_joints(vehicle, angles)
-                else:
-                    _land(simulation, at, step)
-                due = next(waiting, None)
-            _go_on(simulation, time, step)
-            here = simulation.save_state()
-            _land(simulation, time, step)
+                simulation.step(_steps(simulation, due[0], timestep))
+                simulation.set_joints(due[1], due[2])
+                due = next(waves, None)
+            simulation.step(_steps(simulation, time, timestep))
             states.append(watch.states())
-            simulation.load_state(here)
     except DivergedError as error:
         return Trajectory(np.array(states), str(error), error.time)
     return Trajectory(np.array(states))
@@ -105,22 +91,14 @@ def _without_gait(rung: Rung) -> Rung:
     return rung._replace(scene=replace(rung.scene, gait={}))
 
 
-def _go_on(simulation: Simulation, time: float, step: Fraction) -> None:
-    """Take whole steps up to a time, or to less than one before it."""
-    simulation.step(max(0, int((time - simulation.time) / step + _SAME)))
+def _steps(simulation: Simulation, time: float, timestep: float) -> int:
+    return max(0, round(time / timestep) - simulation.step_count)
 
 
-def _land(simulation: Simulation, time: float, step: Fraction) -> None:
-    """Take one shorter step to a time, if it is not reached."""
-    rest = time - simulation.time
-    if rest > _SAME * step:
-        simulation.set_timestep(Fraction(rest).limit_denominator(10**15))
-        simulation.step()
-        simulation.set_timestep(step)
-
-
-def _waves(rung: Rung, duration: float) -> list[tuple[float, str, list[float]]]:
-    """Return time [s], vehicle and joint angles [rad] of the scene's gaits."""
+def _waves(
+    rung: Rung, simulation: Simulation, duration: float
+) -> Iterator[tuple[float, str, list[float]]]:
+    """Yield time [s], vehicle and joint angles [rad] of the scene's gaits, in order of time."""
     moves = []
     for name, gait in rung.scene.gait.items():
         wave = JointWave(
@@ -129,4 +107,4 @@ def _waves(rung: Rung, duration: float) -> list[tuple[float, str, list[float]]]:
         )  # fmt: skip
         count = int(duration * gait.rate) + 1
         moves += [(k / gait.rate, name, wave.angles(k / gait.rate)) for k in range(count)]
-    return moves
+    yield from sorted(moves, key=lambda move: move[0])

@@ -67,6 +67,8 @@ class RecorderOptions:
         Size of the queue to the writer [MiB].
     chunk_s
         Longest wall time that a chunk stays open [s]: what a crash of the machine may cost.
+    allow_assets_from
+        Folders whose files the log may attach if the model names them, beside the model's own.
 
     """
 
@@ -76,6 +78,7 @@ class RecorderOptions:
     policy: str = 'block'
     queue_mib: float = 8.0
     chunk_s: float = 1.0
+    allow_assets_from: tuple[Path, ...] = ()
 
 
 class RecorderPort(Protocol):

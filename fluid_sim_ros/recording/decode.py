@@ -12,11 +12,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.messages.members import NUMBERS, MessageType
-from fluid_sim_ros.recording.description import LogError
+from fluid_sim_ros.errors import ConfigError, printable
+from fluid_sim_ros.messages.members import NUMBERS, Member, MessageType
+from fluid_sim_ros.recording.damage import LogError
+from fluid_sim_ros.schema.limits import beyond, check_limit, limit
 
 _HEADER_SIZE = 4
+#: Longest dotted name of a field [characters].
+_LONGEST_NAME = 500
+#: A table may be this many times as large as its messages, beyond the limit: bytes become numbers.
+_GROWTH = 10
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,12 @@ class Schema:
     """
 
     def __init__(self, definition: str) -> None:
-        self._types = MessageType(definition)
+        check_limit('log_definition_bytes', len(definition), 'the message definition')
+        try:
+            self._types = MessageType(definition)
+        except ValueError:  # a length of thousands of digits
+            raise LogError('the message definition cannot be read') from None
+        self._known: dict[tuple[str, str], tuple[str, list[Member]]] = {}
 
     def layout(self, data: bytes) -> tuple[list[Place], list[int]]:
         """
@@ -61,36 +71,49 @@ class Schema:
         ------
         LogError
             If the message does not fit its definition.
+        LimitError
+            If it has more fields, or levels of messages in messages, than a limit allows.
 
         """
         walk = _Walk(data)
-        self._walk(walk, '', '', '')
+        self._walk(walk, '', '', '', 0)
         return walk.places, walk.lengths
 
-    def _walk(self, walk: '_Walk', kind: str, owner: str, prefix: str) -> None:
-        try:
-            owner, members = self._types.members(kind, owner)
-        except ConfigError as error:
-            raise LogError(str(error)) from None
+    def _members(self, kind: str, owner: str) -> tuple[str, list[Member]]:
+        key = (kind, owner)
+        if key not in self._known:
+            try:
+                self._known[key] = self._types.members(kind, owner)
+            except ConfigError:
+                raise LogError(
+                    f"the message definition lacks the type '{printable(kind)}'"
+                ) from None
+        return self._known[key]
+
+    def _walk(self, walk: '_Walk', kind: str, owner: str, prefix: str, depth: int) -> None:
+        check_limit('log_depth', depth, 'levels of messages in a message')
+        owner, members = self._members(kind, owner)
         for field in members:
             name = f'{prefix}{field.name}'
+            walk.visit(name)
             if field.length is None:
-                self._item(walk, field.type, owner, name)
+                self._item(walk, field.type, owner, name, depth)
                 continue
             count = walk.length() if field.length < 0 else field.length
             if field.type in NUMBERS and count:
                 walk.number(name, NUMBERS[field.type], count)
                 continue
             for i in range(count):
-                self._item(walk, field.type, owner, f'{name}[{i}]')
+                walk.visit(name)
+                self._item(walk, field.type, owner, f'{name}[{i}]', depth)
 
-    def _item(self, walk: '_Walk', kind: str, owner: str, name: str) -> None:
+    def _item(self, walk: '_Walk', kind: str, owner: str, name: str, depth: int) -> None:
         if kind in NUMBERS:
             walk.number(name, NUMBERS[kind], None)
         elif kind == 'string':
             walk.string(name)
         else:
-            self._walk(walk, kind, owner, f'{name}.')
+            self._walk(walk, kind, owner, f'{name}.', depth + 1)
 
 
 class _Walk:
@@ -103,6 +126,14 @@ class _Walk:
         self._at = _HEADER_SIZE
         self.places: list[Place] = []
         self.lengths: list[int] = []
+        self._most = limit('log_columns')
+        self._visited = 0
+
+    def visit(self, name: str) -> None:
+        """Count a member: messages without members would go on for ever without a byte."""
+        self._visited += 1
+        if self._visited > 4 * self._most or len(name) > _LONGEST_NAME:
+            raise beyond('log_columns', self._most, f"field '{printable(name, 60)}'")
 
     def _take(self, size: int, alignment: int) -> int:
         at = self._at + -(self._at - _HEADER_SIZE) % alignment
@@ -122,6 +153,8 @@ class _Walk:
     def number(self, name: str, dtype: str, count: int | None) -> None:
         width = np.dtype(dtype).itemsize
         at = self._take(width * (count or 1), width)
+        if len(self.places) + (count or 1) > self._most:
+            raise beyond('log_columns', self._most, f"field '{printable(name, 60)}'")
         if count is None:
             self.places.append(Place(name, at, dtype, width))
         for i in range(count or 0):
@@ -187,23 +220,36 @@ def columns(definition: str, messages: Sequence[bytes]) -> dict[str, NDArray[Any
     ------
     LogError
         If a message does not fit its definition.
+    LimitError
+        If the table would be larger than the limits of logs allow.
 
     """
     schema, count = Schema(definition), len(messages)
+    allowed = limit('log_table_bytes') + _GROWTH * sum(map(len, messages))
     result: dict[str, NDArray[Any]] = {}
-    left = list(range(count))
-    while left:
-        first = messages[left[0]]
-        places, lengths = schema.layout(first)
-        same = [i for i in left if len(messages[i]) == len(first)]
-        table = np.frombuffer(b''.join([messages[i] for i in same]), np.uint8)
-        table = table.reshape(len(same), len(first))
-        words = [at + byte for at in lengths for byte in range(4)]
-        alike = (table[:, words] == table[0, words]).all(axis=1)
-        rows, table = np.array(same)[alike], table[alike]
-        for place in places:
-            _fill(result, place, count, rows, table)
-        left = sorted(set(left) - set(rows.tolist()))
+    lengths: dict[int, list[int]] = {}
+    for i, message in enumerate(messages):
+        lengths.setdefault(len(message), []).append(i)
+    layouts = 0
+    for size, numbers in lengths.items():
+        rows = np.array(numbers)
+        table = np.frombuffer(b''.join([messages[i] for i in numbers]), np.uint8)
+        table = table.reshape(len(rows), size)
+        while len(rows):
+            layouts += 1
+            check_limit('log_layouts', layouts, 'messages of different layout')
+            places, words = schema.layout(table[0].tobytes())
+            columns_of_words = [at + byte for at in words for byte in range(4)]
+            alike = (table[:, columns_of_words] == table[0, columns_of_words]).all(axis=1)
+            new = sum(place.name not in result for place in places)
+            if (len(result) + new) * count * 8 > allowed:
+                raise beyond(
+                    'log_table_bytes', limit('log_table_bytes'),
+                    f'{len(result) + new} fields of {count} messages',
+                )  # fmt: skip
+            for place in places:
+                _fill(result, place, count, rows[alike], table[alike])
+            rows, table = rows[~alike], table[~alike]
     return result
 
 

@@ -6,30 +6,24 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import metadata
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
-from pydantic import TypeAdapter
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions
+from fluid_sim_ros.recording.damage import LogError
+from fluid_sim_ros.recording.model.cost import check_elements
+from fluid_sim_ros.recording.model.files import gather
+from fluid_sim_ros.recording.model.sources import AttachedFiles, model_of_disk
+from fluid_sim_ros.recording.run_file import BESIDE, FORMAT, SCENE, read_run, read_scene
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.wind_and_current import SavedStreams
 
-#: Version of the layout of the attachments below.
-FORMAT = 1
 RUN, STATE, MODEL = 'fluid_sim/run.json', 'fluid_sim/state.f64', 'fluid_sim/model/'
-
-#: Turns every field of a scene into JSON and back.
-_SCENE = TypeAdapter(Scene)
-
-
-class LogError(FluidSimError):
-    """A log is not readable, or lacks what was asked of it."""
 
 
 @dataclass(frozen=True)
@@ -81,46 +75,33 @@ class RunDescription:
         missing = [name for name in (RUN, STATE) if name not in attachments]
         if missing:
             raise LogError(f'the log has no attachment {missing[0]}: its run cannot be repeated')
-        run = json.loads(attachments[RUN])
-        if run.get('format') != FORMAT:
-            raise LogError(f'the log has format {run.get("format")}, this release reads {FORMAT}')
         files = {
             name.removeprefix(MODEL): data
             for name, data in attachments.items()
             if name.startswith(MODEL)
         }
-        return cls(run, attachments[STATE], files)
+        return cls(read_run(attachments[RUN]), attachments[STATE], files)
 
-    def scene(self, folder: Path) -> Scene:
+    def scene(self) -> Scene:
         """
-        Write the model's files below ``folder`` and return the scene that uses them.
-
-        Parameters
-        ----------
-        folder
-            Empty folder, which the scene needs as long as it is used.
-
-        Returns
-        -------
-        Scene
-            The scene as it was run.
+        Return the scene as it was run, made of the attachments alone: no file is opened.
 
         Raises
         ------
-        LogError
-            If a file would stand outside of the folder.
+        FluidSimError
+            If ``run.json`` or the model in the log has a fault, or names a file that is not
+            attached.
 
         """
-        for name, content in self.files.items():
-            if '..' in PurePosixPath(name).parts or PurePosixPath(name).is_absolute():
-                raise LogError(f"attachment '{MODEL}{name}' points out of its folder")
-            path = folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
         stated = self.run['scene']
-        path = folder / stated['model_path']
-        scene: Scene = _SCENE.validate_python({**stated, 'model_path': path})
-        return scene
+        text, path = stated.get('mjcf', ''), stated['model_path']
+        if not isinstance(text, str):
+            raise LogError("run.json: scene: key 'mjcf': must be a text")
+        model = gather(path, AttachedFiles(self.files).read, text.encode() if text else None)
+        check_elements(model)
+        return Scene(
+            **read_scene(stated), model_path=Path(path), mjcf=model.text, assets=model.assets
+        )
 
     def restore(self, simulation: Simulation, changed: bool = False) -> None:
         """
@@ -136,11 +117,25 @@ class RunDescription:
         changed
             Whether it differs from the recorded one in a setting.
 
+        Raises
+        ------
+        LogError
+            If the recorded state does not fit the model.
+
         """
         streams, saved = self.run['streams'], simulation.save_state()
+        if len(self.state) % 8:
+            raise LogError(f"attachment '{STATE}' is cut")
         engine = np.frombuffer(self.state, '<f8').copy()
-        if changed and engine.shape != saved.engine.shape:
+        if engine.shape != saved.engine.shape:
+            if not changed:
+                raise LogError(
+                    f"attachment '{STATE}' holds {len(engine)} numbers; "
+                    f'the model needs {len(saved.engine)}'
+                )
             engine = saved.engine
+        if not np.isfinite(engine).all():
+            raise LogError(f"attachment '{STATE}' holds numbers that are not finite")
         commanded = SavedStreams(
             np.array(streams['wind']), np.array(streams['current']), streams['enabled']
         )
@@ -178,7 +173,7 @@ def describe(
     if simulation.step_count:
         raise LogError('a recording must begin at step 0 (after a reset)')
     saved = simulation.save_state()
-    model_path, files = model_files(simulation.scene.model_path)
+    model_path, files = _model_files(simulation.scene, options)
     integrator = mujoco.mjtIntegrator(simulation.model.opt.integrator).name
     run = {
         'format': FORMAT,
@@ -191,7 +186,8 @@ def describe(
             'python': platform.python_version(),
             'machine': f'{platform.system()} {platform.machine()}',
         },
-        'scene': _SCENE.dump_python(simulation.scene, mode='json') | {'model_path': model_path},
+        'scene': SCENE.dump_python(simulation.scene, mode='json', exclude=BESIDE)
+        | {'model_path': model_path},
         'seed': simulation.seed,
         'timestep': simulation.timestep,
         'integrator': integrator.removeprefix('mjINT_').lower(),
@@ -208,29 +204,11 @@ def describe(
     return RunDescription(run, saved.engine.astype('<f8').tobytes(), files)
 
 
-def model_files(path: Path) -> tuple[str, dict[str, bytes]]:
-    """
-    Return an MJCF's relative path and the content of it and of every file it refers to.
-
-    Parameters
-    ----------
-    path
-        MJCF file.
-
-    Returns
-    -------
-    path, files
-        Path of the model, relative to the folder that holds all of its files, and their content by
-        such a path.
-
-    """
-    paths = {Path(name).resolve() for name in mujoco.mju_getXMLDependencies(str(path))}
-    paths = {p for p in paths if p.is_file()} | {path.resolve()}
-    root = path.resolve().parent
-    while not all(p.is_relative_to(root) for p in paths):
-        root = root.parent
-    files = {p.relative_to(root).as_posix(): p.read_bytes() for p in sorted(paths)}
-    return path.resolve().relative_to(root).as_posix(), files
+def _model_files(scene: Scene, options: RecorderOptions) -> tuple[str, dict[str, bytes]]:
+    """Return a scene's model and the files that it names, by paths as the log has them."""
+    if scene.assets:  # it came out of a log
+        return 'model.xml', {'model.xml': scene.mjcf.encode(), **scene.assets}
+    return model_of_disk(scene.model_path, options.allow_assets_from, scene.mjcf)
 
 
 def git_commit() -> str | None:

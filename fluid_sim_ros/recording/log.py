@@ -1,12 +1,17 @@
 """An opened log: what is in it, and its messages from those chunks that are sound."""
 
-from collections.abc import Collection, Iterator
+from array import array
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fluid_sim_ros.errors import did_you_mean, listed
-from fluid_sim_ros.recording.description import LogError, RunDescription
+from fluid_sim_ros.recording.damage import BadRecordError, LogError, reading
+from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.records import MESSAGE, MESSAGE_HEAD, Chunk, decompress, records
 
 
@@ -75,6 +80,11 @@ class Log:
         Iterator
             The messages.
 
+        Raises
+        ------
+        LogError
+            If a chunk does not hold what its checksum vouches for: its writer lied.
+
         """
         wanted = {
             number: topic.name
@@ -83,16 +93,10 @@ class Log:
         }
         with self.path.open('rb') as stream:
             for chunk in self.chunks:
-                stream.seek(chunk.offset)
-                content = decompress(chunk, stream.read(chunk.size))
-                for kind, begin, end in records(content):
-                    if kind != MESSAGE:
-                        continue
-                    channel, step, log_ns, wall_ns = MESSAGE_HEAD.unpack_from(content, begin)
-                    name = wanted.get(channel)
-                    if name is not None:
-                        data = content[begin + MESSAGE_HEAD.size : end]
-                        yield LogMessage(name, step, log_ns, wall_ns, data)
+                with reading(self.path, f'chunk at byte {chunk.at}'):
+                    stream.seek(chunk.offset)
+                    content = decompress(chunk, stream.read(chunk.size))
+                    yield from _messages(content, wanted)
 
     def topic(self, name: str) -> LogTopic:
         """
@@ -121,9 +125,97 @@ class Log:
         hint = did_you_mean(name, names)
         raise LogError(f"{self.path}: no topic '{name}'{hint} it has: {listed(names)}")
 
+    def series(self, topic: LogTopic) -> 'Series':
+        """
+        Return the messages of one topic as arrays.
+
+        Parameters
+        ----------
+        topic
+            Of this log.
+
+        Returns
+        -------
+        Series
+            In the order of the file.
+
+        Raises
+        ------
+        LogError
+            As ``messages``.
+
+        """
+        series = Series()
+        for message in self.messages([topic.name]):
+            series.add(message)
+        return series
+
     def description(self) -> RunDescription:
         """Return the run's description, or raise LogError."""
-        try:
+        with reading(self.path):
             return RunDescription.of_attachments(self.attachments)
-        except LogError as error:
-            raise LogError(f'{self.path}: {error}') from None
+
+
+class Series:
+    """
+    Messages of one topic, packed: a log may hold millions.
+
+    Attributes
+    ----------
+    steps, log_ns, publish_ns
+        Step, simulated time [ns] and wall time [ns] of each.
+    data
+        CDR bytes of each.
+
+    """
+
+    def __init__(self) -> None:
+        self._steps, self._log_ns, self._publish_ns = array('Q'), array('Q'), array('Q')
+        self.data: list[bytes] = []
+
+    def __len__(self) -> int:
+        return len(self.data)
+
+    def add(self, message: LogMessage) -> None:
+        """
+        Add a message.
+
+        Parameters
+        ----------
+        message
+            Of the topic.
+
+        """
+        self._steps.append(message.step)
+        self._log_ns.append(message.log_ns)
+        self._publish_ns.append(message.publish_ns)
+        self.data.append(message.data)
+
+    @property
+    def steps(self) -> NDArray[np.uint64]:
+        """Step of each."""
+        return np.array(self._steps, dtype=np.uint64)
+
+    @property
+    def log_ns(self) -> NDArray[np.uint64]:
+        """Simulated time of each [ns]."""
+        return np.array(self._log_ns, dtype=np.uint64)
+
+    @property
+    def publish_ns(self) -> NDArray[np.uint64]:
+        """Wall time of each [ns]."""
+        return np.array(self._publish_ns, dtype=np.uint64)
+
+
+def _messages(content: bytes, wanted: Mapping[int, str]) -> Iterator[LogMessage]:
+    """Yield the messages of some channels that stand in a chunk's content."""
+    size = MESSAGE_HEAD.size
+    for kind, begin, end in records(content):
+        if kind != MESSAGE:
+            continue
+        if begin + size > end:
+            raise BadRecordError(f'the message at byte {begin} of its content is too short')
+        channel, step, log_ns, wall_ns = MESSAGE_HEAD.unpack_from(content, begin)
+        name = wanted.get(channel)
+        if name is not None:
+            yield LogMessage(name, step, log_ns, wall_ns, content[begin + size : end])

@@ -3,15 +3,20 @@ Reads MCAP logs, whole or damaged: every value comes from a part whose checksum 
 
 The format is https://mcap.dev/spec (version 0). Messages stand in compressed chunks, each with a
 checksum; what is before a damaged or missing part is read, and so is what comes after it where
-the index at the file's end (or the length of the damaged part) says where to go on.
+the index at the file's end (or the length of the damaged part) says where to go on. One record is
+in memory at a time; what a log may grow to is bounded (``schema.limits``).
 """
 
+import os
+import stat
 import struct
 import zlib
 from pathlib import Path
 
-from fluid_sim_ros.recording.description import LogError
-from fluid_sim_ros.recording.log import Log, LogTopic
+from fluid_sim_ros.errors import printable
+from fluid_sim_ros.recording.channels import Channels
+from fluid_sim_ros.recording.damage import BadRecordError, LogError, reading
+from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.records import (
     ATTACHMENT,
     CHANNEL,
@@ -25,13 +30,17 @@ from fluid_sim_ros.recording.records import (
     OTHERS,
     RECORD,
     SCHEMA,
-    BadRecordError,
     Fields,
     decompress,
     read_attachment,
     read_chunk_head,
     records,
 )
+from fluid_sim_ros.schema.limits import beyond, expanded_size, limit
+
+#: Faults that are listed one by one.
+_MOST_FAULTS = 100
+_PIECE = 1 << 20
 
 
 def open_log(path: str | Path) -> Log:
@@ -41,181 +50,229 @@ def open_log(path: str | Path) -> Log:
     Parameters
     ----------
     path
-        Log file, or a folder with one.
+        Of the file or the folder.
 
     Returns
     -------
     Log
-        What is in it.
+        What is in it; what is damaged, see ``Log.faults``.
 
     Raises
     ------
     LogError
-        If there is no such file or it is no MCAP file; damage is no error, see ``Log.faults``.
+        If there is no such file, it is no MCAP file, or it goes beyond a limit.
 
     """
     path = Path(path)
-    if path.is_dir():
-        inside = sorted(path.glob('*.mcap'))
-        if len(inside) != 1:
-            raise LogError(f'{path}: holds {len(inside)} .mcap files, needs one')
-        path = inside[0]
+    with reading(path):
+        if path.is_dir():
+            inside = sorted(path.glob('*.mcap'))
+            if len(inside) != 1:
+                raise LogError(f'holds {len(inside)} .mcap files, needs one')
+            path = inside[0]
     try:
-        content = path.read_bytes() if path.stat().st_size < _SMALL else _mapped(path)
-    except OSError as error:
-        raise LogError(f'{path}: {error.strerror}') from None
-    if not len(content):
-        raise LogError(f'{path}: the file is empty')
-    if content[: len(MAGIC)] != MAGIC[: len(content)] or len(content) < len(MAGIC):
-        raise LogError(f'{path}: not an MCAP file')
-    log = Log(path, len(content))
-    _Scan(log, content).run()
+        # a pipe would be waited for
+        handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, 'strerror', None) or str(error)
+        raise LogError(f'{printable(str(path), 1000)}: {reason}') from None
+    try:
+        with reading(path):
+            return _scanned(path, handle)
+    finally:
+        os.close(handle)
+
+
+def _scanned(path: Path, handle: int) -> Log:
+    status = os.fstat(handle)
+    if not stat.S_ISREG(status.st_mode):
+        raise LogError('not a regular file')
+    start = os.pread(handle, len(MAGIC), 0)
+    if not start:
+        raise LogError('the file is empty')
+    if start != MAGIC:
+        raise LogError('not an MCAP file')
+    log = Log(path, status.st_size)
+    _Scan(log, handle).run()
     return log
-
-
-#: Files below this are read at once, larger ones are mapped [bytes].
-_SMALL = 1 << 26
-
-
-def _mapped(path: Path) -> bytes:
-    import mmap
-
-    with path.open('rb') as stream:
-        # supports all that is done with it below: length, slices, struct.unpack_from
-        return mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)  # type: ignore[return-value]
 
 
 class _Scan:
     """Goes through a file once: finds chunks, attachments and faults."""
 
-    def __init__(self, log: Log, content: bytes) -> None:
-        self._log = log
-        self._content = content
+    def __init__(self, log: Log, handle: int) -> None:
+        self._log, self._handle = log, handle
         self._seen: set[int] = set()
-        self._schemas: dict[int, tuple[str, str]] = {}  # type and definition
+        self._channels = Channels(log.topics)
+        self._expanded = 0
+        self._faults = 0
+        self._crc = zlib.crc32(MAGIC)
 
     def run(self) -> None:
-        content = self._content
-        at, end = len(MAGIC), len(content)
+        at, end = len(MAGIC), self._log.size
         ended = False
         while at < end and not ended:
             if end - at < RECORD.size:
                 break
-            kind, size = RECORD.unpack_from(content, at)
+            head = self._bytes(at, RECORD.size)
+            kind, size = RECORD.unpack(head)
             after = at + RECORD.size + size
             if after > end:
                 break
             ended = kind == DATA_END
-            self._take(kind, at, after)
+            self._take(kind, at, after, head)
             at = after
         if ended:
-            self._check_end(at)
+            if not self._read_index():
+                self._fault('the index at the end of the file is missing or damaged')
+            else:
+                self._log.complete = True
         else:
             self._fault(
                 f'the file ends (or is damaged) at byte {at} of {end}: what followed there, and '
                 'the index, are missing'
             )
             self._read_index()
+        for line in self._channels.left_out:
+            self._fault(line)
+        if self._faults > _MOST_FAULTS:
+            self._log.faults.append(f'and {self._faults - _MOST_FAULTS} more faults')
+
+    def _bytes(self, at: int, size: int) -> bytes:
+        data = os.pread(self._handle, size, at)
+        while len(data) < size:  # a read takes 2 GiB at most
+            more = os.pread(self._handle, size - len(data), at + len(data))
+            if not more:
+                raise LogError('the file became shorter while it was read')
+            data += more
+        return data
 
     def _fault(self, line: str) -> None:
-        self._log.faults.append(line)
+        self._faults += 1
+        if self._faults <= _MOST_FAULTS:
+            self._log.faults.append(line)
 
-    def _take(self, kind: int, at: int, after: int) -> None:
-        begin, content = at + RECORD.size, self._content
-        try:
-            if kind == HEADER:
-                fields = Fields(content[begin:after])
-                fields.string()
-                self._log.library = fields.string()
-            elif kind == CHUNK:
-                self._take_chunk(at, begin, after)
-            elif kind == ATTACHMENT:
-                name, data = read_attachment(content[begin:after])
-                self._log.attachments[name] = data
-            elif kind == DATA_END:
-                stated = struct.unpack_from('<I', content, begin)[0] if after - begin == 4 else 0
-                if stated != zlib.crc32(memoryview(content)[:at]):
-                    self._fault('the checksum of the data section is wrong: something is damaged')
-            elif kind not in OTHERS:
+    def _take(self, kind: int, at: int, after: int, head: bytes) -> None:
+        """Take the record between two places, and what it adds to the file's checksum."""
+        before = self._crc
+        begin, place = at + RECORD.size, f'{_KINDS.get(kind, "record")} at byte {at}'
+        self._crc = zlib.crc32(head, self._crc)
+        if kind not in _KINDS:
+            for piece in range(begin, after, _PIECE):
+                size = min(_PIECE, after - piece)
+                self._crc = zlib.crc32(self._bytes(piece, size), self._crc)
+            if kind not in OTHERS:
                 self._fault(f'unknown record of kind {kind} at byte {at}')
-        except BadRecordError as error:
-            self._fault(f'{_KINDS.get(kind, "record")} at byte {at}: {error}')
+            return
+        record = self._bytes(begin, after - begin)
+        self._crc = zlib.crc32(record, self._crc)
+        try:
+            with reading(self._log.path, place):
+                self._take_record(kind, at, record, before)
+        except LogError as error:
+            if not isinstance(error.__cause__, BadRecordError):
+                raise
+            self._fault(f'{place}: {error.__cause__}')
 
-    def _take_chunk(self, at: int, begin: int, after: int) -> None:
-        chunk = read_chunk_head(self._content, begin, after)
-        data = self._content[chunk.offset : chunk.offset + chunk.size]
-        content = decompress(chunk, data)
-        for kind, first, last in records(content):
+    def _take_record(self, kind: int, at: int, record: bytes, crc: int) -> None:
+        if kind == HEADER:
+            fields = Fields(record)
+            fields.string()
+            self._log.library = fields.string()
+        elif kind == CHUNK:
+            self._take_chunk(at, record)
+        elif kind == ATTACHMENT:
+            name, data = read_attachment(record)
+            if name in self._log.attachments:
+                raise BadRecordError(f"there is another attachment '{printable(name)}' before it")
+            self._log.attachments[name] = data
+        elif record != struct.pack('<I', crc):
+            raise BadRecordError('the checksum of the data section is wrong: something is damaged')
+
+    def _take_chunk(self, at: int, record: bytes) -> None:
+        chunk = read_chunk_head(record, at)
+        first = chunk.offset - at - RECORD.size
+        if chunk.size != len(record) - first:
+            raise BadRecordError('its data are longer or shorter than the record')
+        content = decompress(chunk, record[first:])
+        self._expanded += len(content)
+        if self._expanded > (most := expanded_size(self._log.size)):
+            words = f'{self._expanded} bytes of messages in a file of {self._log.size}'
+            raise beyond('expansion', limit('expansion'), f'{words} (allowed: {most})')
+        for kind, begin, end in records(content):
             if kind == SCHEMA:
-                self._take_schema(content[first:last])
+                self._channels.take_schema(content[begin:end])
             elif kind == CHANNEL:
-                self._take_channel(content[first:last])
+                self._channels.take_channel(content[begin:end])
             else:  # they stand before the messages
                 break
         self._log.chunks.append(chunk)
         self._seen.add(at)
 
-    def _take_schema(self, record: bytes) -> None:
-        fields = Fields(record)
-        number = fields.uint16()
-        name = fields.string()
-        fields.string()
-        self._schemas[number] = (name, fields.block().decode())
-
-    def _take_channel(self, record: bytes) -> None:
-        fields = Fields(record)
-        number, schema = fields.uint16(), fields.uint16()
-        topic = fields.string()
-        fields.string()
-        pairs = Fields(fields.block())
-        metadata = {}
-        while pairs.left:
-            key = pairs.string()
-            metadata[key] = pairs.string()
-        kind, text = self._schemas.get(schema, ('', ''))
-        self._log.topics[number] = LogTopic(topic, kind, text, metadata)
-
-    def _check_end(self, at: int) -> None:
-        """Check the summary, and read what only it still knows."""
-        if self._read_index():
-            self._log.complete = True
-        elif at:
-            self._fault('the index at the end of the file is missing or damaged')
+    # ---- the index at the end --------------------------------------------------------------
 
     def _read_index(self) -> bool:
         """Use the summary if its checksum is right: channels, and chunks that were not seen."""
-        content, size = self._content, self._log.size
+        size = self._log.size
         foot = size - len(MAGIC) - FOOTER_SIZE
-        if foot < len(MAGIC) or content[size - len(MAGIC) :] != MAGIC:
+        if foot < len(MAGIC) or self._bytes(size - len(MAGIC), len(MAGIC)) != MAGIC:
             return False
-        kind, length = RECORD.unpack_from(content, foot)
-        if (kind, length) != (FOOTER, 20):
+        footer = self._bytes(foot, FOOTER_SIZE)
+        if RECORD.unpack_from(footer) != (FOOTER, 20):
             return False
-        start, _, crc = struct.unpack_from('<QQI', content, foot + RECORD.size)
-        if not len(MAGIC) <= start <= foot or zlib.crc32(content[start : size - 12]) != crc:
+        start, _, crc = struct.unpack_from('<QQI', footer, RECORD.size)
+        if not len(MAGIC) <= start <= foot:
             return False
-        lost = []
-        for kind, first, last in records(content[start:foot]):
-            record = content[start + first : start + last]
-            if kind == SCHEMA:
-                self._take_schema(record)
-            elif kind == CHANNEL:
-                self._take_channel(record)
-            elif kind == CHUNK_INDEX:
-                offset, length = struct.unpack_from('<QQ', record, 16)
-                if offset not in self._seen:
-                    lost.append((offset, offset + length))
-        for at, after in lost:
-            self._rescue(at, after)
-        self._log.chunks.sort(key=lambda chunk: chunk.offset)
+        summary = self._bytes(start, foot - start)
+        if zlib.crc32(footer[:-4], zlib.crc32(summary)) != crc:
+            return False
+        try:
+            with reading(self._log.path, f'index at byte {start}'):
+                lost = self._indexed(summary)
+        except LogError as error:
+            if not isinstance(error.__cause__, BadRecordError):
+                raise
+            self._fault(f'index at byte {start}: {error.__cause__}')
+            return False
+        allowed = 2 * size  # entries may lie, and name one place many times
+        for at, length in sorted(lost.items()):
+            allowed -= length
+            if allowed < 0:
+                self._fault('the index names more chunks than the file can hold')
+                break
+            self._rescue(at, length)
+        self._log.chunks.sort(key=lambda chunk: chunk.at)
         return True
 
-    def _rescue(self, at: int, after: int) -> None:
+    def _indexed(self, summary: bytes) -> dict[int, int]:
+        """Take the channels of the summary; return place and length of chunks not seen yet."""
+        lost = {}
+        for kind, first, last in records(summary):
+            if kind == SCHEMA:
+                self._channels.take_schema(summary[first:last])
+            elif kind == CHANNEL:
+                self._channels.take_channel(summary[first:last])
+            elif kind == CHUNK_INDEX:
+                if last - first < 32:
+                    raise BadRecordError('an entry is too short')
+                at, length = struct.unpack_from('<QQ', summary, first + 16)
+                if at not in self._seen:
+                    lost[at] = length
+        return lost
+
+    def _rescue(self, at: int, length: int) -> None:
         """Read a chunk that the index names and the scan did not reach."""
+        place = f'chunk at byte {at}'
         try:
-            self._take_chunk(at, at + RECORD.size, after)
-        except BadRecordError as error:
-            line = f'chunk at byte {at}: {error}'
+            with reading(self._log.path, place):
+                if not RECORD.size <= length <= self._log.size - at:
+                    raise BadRecordError('it would reach beyond the file')
+                record = self._bytes(at + RECORD.size, length - RECORD.size)
+                self._take_chunk(at, record)
+        except LogError as error:
+            if not isinstance(error.__cause__, BadRecordError):
+                raise
+            line = f'{place}: {error.__cause__}'
             if line not in self._log.faults:
                 self._fault(line)
 

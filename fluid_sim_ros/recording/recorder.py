@@ -12,10 +12,10 @@ from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.loop.recorder_port import EVENTS, EVENTS_TYPE, RecordedTopic, RecorderOptions
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.templates import Template
-from fluid_sim_ros.recording import rosbag2, wire
 from fluid_sim_ros.recording.description import describe
-from fluid_sim_ros.recording.segments import create_segment
-from fluid_sim_ros.recording.writer_process import WriterProcess
+from fluid_sim_ros.recording.writing import rosbag2, wire
+from fluid_sim_ros.recording.writing.segments import create_segment
+from fluid_sim_ros.recording.writing.writer_process import WriterProcess
 from fluid_sim_ros.simulation import Simulation
 
 #: What is kept is sent when it is this large [bytes] or this old [s]; smaller portions would wake
@@ -70,7 +70,6 @@ class Recorder:
         self.fault = ''
         self.written = self.dropped = 0
         self.paths: list[Path] = []
-        self.paths.append(create_segment(options.path, 0))
         start = self._start()
         self.writer = WriterProcess(int(options.queue_mib * (1 << 20)), options.policy == 'block')
         self._send(wire.START, len(start), [start])
@@ -184,8 +183,9 @@ class Recorder:
     # ---- files -----------------------------------------------------------------------------
 
     def _start(self) -> bytes:
-        """Return the frame that begins the last of the files."""
+        """Make the next of the files, and return the frame that begins it."""
         description = describe(self._simulation, self._topics, self._options)
+        self.paths.append(create_segment(self._options.path, len(self.paths)))
         run = description.run
         start = {
             'path': str(self.paths[-1].resolve()),
@@ -217,7 +217,6 @@ class Recorder:
         self.flush(now=True)
         self._send(wire.END, 0, [])
         try:
-            self.paths.append(create_segment(self._options.path, len(self.paths)))
             start = self._start()
         except FluidSimError as error:
             self.close()

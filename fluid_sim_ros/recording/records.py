@@ -11,6 +11,10 @@ from dataclasses import dataclass
 
 import zstandard
 
+from fluid_sim_ros.errors import printable
+from fluid_sim_ros.recording.damage import BadRecordError
+from fluid_sim_ros.schema.limits import check_limit
+
 MAGIC = b'\x89MCAP0\r\n'
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = 1, 2, 3, 4, 5, 6
 CHUNK_INDEX, ATTACHMENT, DATA_END = 8, 9, 15
@@ -20,18 +24,17 @@ OTHERS = (7, 10, 11, 12, 13, 14)
 RECORD = struct.Struct('<BQ')
 MESSAGE_HEAD = struct.Struct('<HIQQ')
 FOOTER_SIZE = RECORD.size + 20
-#: A chunk that claims to be larger is damaged; ours are closed at 1 MiB [bytes].
-_LARGEST_CHUNK = 1 << 28
-
-
-class BadRecordError(Exception):
-    """A record does not hold what its kind must hold."""
 
 
 @dataclass
 class Chunk:
-    """Where a chunk's compressed data stands."""
+    """
+    Where a chunk stands: its record (``at``), and in the file its compressed data (``offset``).
 
+    The size of its content, uncompressed [bytes], is what its head states.
+    """
+
+    at: int
     offset: int
     size: int
     compression: bytes
@@ -148,38 +151,36 @@ def read_attachment(record: bytes) -> tuple[str, bytes]:
     return name, data
 
 
-def read_chunk_head(content: bytes, begin: int, after: int) -> Chunk:
+def read_chunk_head(record: bytes, at: int) -> Chunk:
     """
-    Return where the data of a chunk record stands.
+    Return where the data of a chunk stands.
 
     Parameters
     ----------
-    content
-        Of the file.
-    begin, after
-        Where the record's fields begin, and where it ends.
+    record
+        A chunk record, without its head; its first 64 bytes are enough.
+    at
+        Where the record begins in the file.
 
     Returns
     -------
     Chunk
-        The place of its data.
+        The place of its data, which may reach beyond the record.
 
     Raises
     ------
     BadRecordError
-        If the data would reach beyond the record.
+        If it is too short.
 
     """
-    fields = Fields(content[begin : min(after, begin + 64)])
+    fields = Fields(record[:64])
     fields.take(16)
     uncompressed_size = int.from_bytes(fields.take(8), 'little')
     crc = int.from_bytes(fields.take(4), 'little')
     compression = fields.block()
     size = int.from_bytes(fields.take(8), 'little')
-    offset = begin + 16 + 8 + 4 + 4 + len(compression) + 8
-    if offset + size > after:
-        raise BadRecordError('its data are longer than the record')
-    return Chunk(offset, size, compression, uncompressed_size, crc)
+    offset = at + RECORD.size + 16 + 8 + 4 + 4 + len(compression) + 8
+    return Chunk(at, offset, size, compression, uncompressed_size, crc)
 
 
 def decompress(chunk: Chunk, data: bytes) -> bytes:
@@ -202,19 +203,28 @@ def decompress(chunk: Chunk, data: bytes) -> bytes:
     ------
     BadRecordError
         If the data are damaged, or the compression is not known.
+    LimitError
+        If the content is larger than ``log_chunk_bytes``.
 
     """
-    content = data
+    stated = len(data)
     if chunk.compression == b'zstd':
         try:
             stated = zstandard.frame_content_size(data)
-            if stated != chunk.uncompressed_size or stated > _LARGEST_CHUNK:
-                raise BadRecordError('its sizes do not agree')
-            content = zstandard.decompress(data)
         except zstandard.ZstdError:
             raise BadRecordError('its data do not decompress') from None
     elif chunk.compression:
-        raise BadRecordError(f'compression {chunk.compression!r} is not known; allowed: zstd')
+        name = printable(chunk.compression.decode(errors='replace'), 40)
+        raise BadRecordError(f"compression '{name}' is not known; allowed: zstd")
+    if stated != chunk.uncompressed_size or len(data) != chunk.size:
+        raise BadRecordError('its sizes do not agree')
+    check_limit('log_chunk_bytes', stated, 'its content')
+    content = data
+    if chunk.compression:
+        try:
+            content = zstandard.decompress(data)
+        except zstandard.ZstdError:
+            raise BadRecordError('its data do not decompress') from None
     if zlib.crc32(content) != chunk.crc:
         raise BadRecordError('its checksum is wrong')
     return content
@@ -234,11 +244,21 @@ def records(content: bytes) -> Iterator[tuple[int, int, int]]:
     kind, begin, end
         Kind of a record, and where its fields stand.
 
+    Raises
+    ------
+    BadRecordError
+        If the last one reaches beyond the content.
+
     """
     at, end = 0, len(content)
     unpack, size = RECORD.unpack_from, RECORD.size
-    while at + size <= end:
+    while at < end:
+        if at + size > end:
+            raise BadRecordError(f'a record is cut at byte {at} of its content')
         kind, length = unpack(content, at)
         at += size
-        yield kind, at, at + length
-        at += length
+        after = at + length
+        if after > end:
+            raise BadRecordError(f'the record at byte {at - size} of its content is too long')
+        yield kind, at, after
+        at = after

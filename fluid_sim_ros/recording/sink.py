@@ -30,6 +30,8 @@ class RecordingSink:
         Parameters of the run that differ from the node's defaults.
     topics
         Patterns of relative topic names.
+    allow_assets_from
+        As ``RecorderOptions.allow_assets_from``.
 
     """
 
@@ -39,6 +41,7 @@ class RecordingSink:
         path: Path,
         settings: Mapping[str, Any] | None = None,
         topics: Sequence[str] = ('*',),
+        allow_assets_from: Sequence[Path] = (),
     ) -> None:
         known = {**state_topics.DEFAULTS, **command_messages.DEFAULTS, **(settings or {})}
         self._states = StateTopics(simulation, known)
@@ -49,7 +52,8 @@ class RecordingSink:
             RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, *t.quality) for t in wanted
         ]
         channels += [RecordedTopic(f'/{t.name}', t.type, t.name, *NEWEST) for t in commands]
-        self.recorder = Recorder(simulation, channels, RecorderOptions(path, known))
+        options = RecorderOptions(path, known, allow_assets_from=tuple(allow_assets_from))
+        self.recorder = Recorder(simulation, channels, options)
         self._topics = list(enumerate(wanted))
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
         self.period = math.gcd(*(topic.period for topic in wanted)) or NEVER

@@ -81,6 +81,7 @@ def start_recording(
         policy=settings['record.policy'],
         queue_mib=settings['record.queue'],
         chunk_s=settings['record.chunk'],
+        allow_assets_from=tuple(map(Path, filter(None, [settings['record.allow_assets_from']]))),
     )
     tap = open_recorder(simulation, recorded, options)
     inputs.tap = outputs.tap = diagnostics.tap = tap

@@ -53,8 +53,8 @@ class Scene:
         Name in config/scenes, or the stem of the given file.
     model_path
         The MJCF file.
-    mjcf
-        The model itself as text, in place of the file.
+    mjcf, assets
+        The model itself as text, in place of the file, and the files that it names.
     description, medium, duration, keyframe, home, waves, wind, current, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     timestep, integrator, fluid
@@ -82,6 +82,7 @@ class Scene:
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
     mjcf: str = ''
+    assets: dict[str, bytes] = field(default_factory=dict, repr=False)
     timestep: float | None = None
     integrator: str | None = None
     fluid: str | None = None
@@ -189,7 +190,8 @@ class Scene:
         """Return the model as it is written, or raise ModelError."""
         try:
             if self.mjcf:
-                spec = mujoco.MjSpec.from_string(self.mjcf)
+                # some are read with the text (models, flexes), the others when it is compiled
+                spec = mujoco.MjSpec.from_string(self.mjcf, self.assets, self.assets)
             else:
                 spec = mujoco.MjSpec.from_file(str(self.model_path))
         except ValueError as error:

@@ -14,8 +14,8 @@ import pytest
 from mcap.reader import make_reader
 
 from fluid_sim_ros.cli.main import WRONG_INPUT, main
+from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.decode import columns, fields
-from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.inspect import info, repair
 from fluid_sim_ros.recording.reader import MAGIC, open_log
 from test.support.recorded_flights import record_flight

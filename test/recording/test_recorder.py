@@ -21,8 +21,8 @@ from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.recorder import Recorder
-from fluid_sim_ros.recording.rosbag2 import recorded_topic
 from fluid_sim_ros.recording.sink import RecordingSink
+from fluid_sim_ros.recording.writing.rosbag2 import recorded_topic
 from test.support.recorded_flights import events_of, record_flight
 
 TOPIC = RecordedTopic('/a', 'std_msgs/msg/String')

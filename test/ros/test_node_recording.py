@@ -124,7 +124,7 @@ def writer_of(process):
 
     def look():
         for pid in Path(children).read_text().split():
-            if b'recording.writer' in Path(f'/proc/{pid}/cmdline').read_bytes():
+            if b'recording.writing.writer' in Path(f'/proc/{pid}/cmdline').read_bytes():
                 found.append(int(pid))
         return bool(found)
 

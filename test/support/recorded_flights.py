@@ -55,11 +55,18 @@ class Pilot:
 
 
 def record_flight(
-    path, scene='quadrotor', seconds=1.0, seed=0, piloted=True, topics=('*',), **options
+    path,
+    scene='quadrotor',
+    seconds=1.0,
+    seed=0,
+    piloted=True,
+    topics=('*',),
+    assets_from=(),
+    **options,
 ):
     """Record a flight; return the simulation at its end."""
     simulation = Simulation(scene, seed=seed, **options)
-    sink = RecordingSink(simulation, path, topics=topics)
+    sink = RecordingSink(simulation, path, topics=topics, allow_assets_from=assets_from)
     source = Pilot(simulation, sink, seed) if piloted else NoSource()
     try:
         steps = sink.period * round(seconds / sink.period / simulation.timestep)

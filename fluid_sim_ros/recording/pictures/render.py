@@ -1,6 +1,5 @@
 """A log as a film: MuJoCo's renderer on the recorded poses, with force arrows."""
 
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,9 +10,10 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.decode import columns
-from fluid_sim_ros.recording.description import LogError
 from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.recording.model.trial import try_model
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.pictures.tracks import Track, read_tracks
 from fluid_sim_ros.recording.pictures.water import add_waves
@@ -84,8 +84,10 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
     """
     if out.suffix not in KINDS:
         raise ConfigError(f"render: '{out.suffix}' is not known; allowed: {listed(KINDS)}")
-    with tempfile.TemporaryDirectory() as folder:
-        stage = _Stage(log, Path(folder), options)
+    with reading(log.path):
+        log.description().scene()  # what is missing is found before anything is tried
+        try_model(log.path)
+        stage = _Stage(log, options)
         times = stage.frame_times()
         if out.suffix == '.png':
             times = times[-1:] if options.at is None else stage.time_of_still(options.at)
@@ -103,10 +105,10 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
 class _Stage:
     """The model, posed as the log has it."""
 
-    def __init__(self, log: Log, folder: Path, options: FilmOptions) -> None:
+    def __init__(self, log: Log, options: FilmOptions) -> None:
         run = log.description().run
         self._options = options
-        self._simulation = Simulation(log.description().scene(folder), seed=run['seed'])
+        self._simulation = Simulation(log.description().scene(), seed=run['seed'])
         self._data = self._simulation.data
         self._model = model = self._simulation.model
         model.vis.global_.offwidth = max(model.vis.global_.offwidth, options.width)
@@ -254,7 +256,7 @@ def _joint_states(log: Log, track: Track) -> dict[str, tuple[Array, Array]]:
     if not messages:
         return {}
     table = columns(topic.definition, [m.data for m in messages])
-    times = np.array([m.log_ns for m in messages]) / 1e9
+    times = np.array([m.log_ns for m in messages]) * 1e-9
     found = {}
     for i in range(sum(name.startswith('name[') for name in table)):
         joint = str(table[f'name[{i}]'][0])

@@ -100,6 +100,9 @@ TABLE: dict[str, Declared] = {
     'record.chunk': Declared(
         1.0, '[s] wall time after which data is on the disk', low=0.05, high=3600
     ),
+    'record.allow_assets_from': Declared(
+        '', "folder outside of the model's whose files a log may hold, if the model names them"
+    ),
     'autopilot.protocol': Declared(
         'none', 'autopilot that flies a vehicle, in lockstep', choices=('none', *PROTOCOLS)
     ),

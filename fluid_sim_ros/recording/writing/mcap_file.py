@@ -27,7 +27,7 @@ from mcap.records import (
     SummaryOffset,
 )
 
-from fluid_sim_ros.recording import wire
+from fluid_sim_ros.recording.writing import wire
 
 _MAGIC = b'\x89MCAP0\r\n'
 #: Logs are 1 % smaller at the default of 3, which takes a fifth longer.

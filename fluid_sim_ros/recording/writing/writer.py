@@ -17,8 +17,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.recording import rosbag2, wire
-from fluid_sim_ros.recording.mcap_file import McapFile
+from fluid_sim_ros.recording.writing import rosbag2, wire
+from fluid_sim_ros.recording.writing.mcap_file import McapFile
 
 #: Size at which a chunk is closed [bytes].
 CHUNK_SIZE = 1 << 20

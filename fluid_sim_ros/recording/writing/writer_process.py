@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Sequence
 from typing import IO
 
-from fluid_sim_ros.recording import wire
+from fluid_sim_ros.recording.writing import wire
 
 #: Size asked of the pipe [bytes]; Linux grants 1 MiB without privilege.
 _PIPE_SIZE = 1 << 20
@@ -53,7 +53,8 @@ class WriterProcess:
         # a session of its own: Ctrl-C in a terminal must end the simulation only, whose end ends
         # the writer
         self._process = subprocess.Popen(
-            [sys.executable, '-m', 'fluid_sim_ros.recording.writer'],
+            # -P: modules that lie in the working folder are not imported
+            [sys.executable, '-P', '-m', 'fluid_sim_ros.recording.writing.writer'],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, bufsize=0,
         )  # fmt: skip
         self.pid = self._process.pid

@@ -1,0 +1,1 @@
+"""Writing logs: MCAP files, and what rosbag2 wants beside them, in a process of its own."""
