@@ -74,7 +74,8 @@ class Native:
     ``beyond_grids(model, data, point, out) -> int`` writes how far a point lies beyond the ends of
     the current's and the wind's grid (t, x, y, z each) and returns 1 if it does.
     ``acting_terms(model, data, body, out)`` writes 1 for each of ``terms`` that can act on a body
-    into 32-bit integers; see ``plugins.acting``. See
+    into 32-bit integers; see ``plugins.acting``. ``limits(model, data, i, out) -> int`` writes
+    how far a body has left what its forces are good for; see ``plugins.limits``. See
     plugins/src/api/ for their meaning.
 
     Parameters
@@ -149,6 +150,9 @@ class Native:
         self.acting_terms: Callable[[int, int, int, int], None] = library.fsr_acting_terms
         library.fsr_acting_terms.argtypes = [pointer, pointer, integer, pointer]
         library.fsr_acting_terms.restype = None
+        self.limits: Callable[[int, int, int, int], int] = library.fsr_limits
+        library.fsr_limits.argtypes = [pointer, pointer, integer, pointer]
+        library.fsr_limits.restype = integer
         self._plugin_key = library.fsr_plugin_key
         library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
         library.fsr_plugin_key.restype = ctypes.c_char_p

@@ -144,3 +144,18 @@ FSR_API void fsr_acting_terms(const mjModel* m, const mjData* d, int body, int* 
   ActingTerms(m, d, body, can);
   for (int i = 0; i < kTermCount; ++i) acts[i] = can[i];
 }
+
+// How far body number i of those with fluid_sim forces has left what they are good for, largest
+// since the data was made: out[0] share of its extent that passed the surface in one step, out[1]
+// speed at that [m/s], out[2] extent [m], out[3] Reynolds number of a drag that goes by it. Returns
+// the body's id, or -1 beyond the last.
+FSR_API int fsr_limits(const mjModel* m, const mjData* d, int i, double* out) {
+  const Assembly* assembly = FindAssembly(m, d);
+  if (!assembly || i < 0 || i >= static_cast<int>(assembly->limits.size())) return -1;
+  const BodyLimits& limits = assembly->limits[i];
+  out[0] = limits.crossing_share;
+  out[1] = limits.crossing_speed;
+  out[2] = limits.crossing_extent;
+  out[3] = limits.reynolds;
+  return assembly->bodies[i].id;
+}

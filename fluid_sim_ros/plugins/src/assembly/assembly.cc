@@ -1,5 +1,7 @@
 #include "assembly/assembly.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -64,6 +66,7 @@ std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
     if (!ReadBody(m, instance, body, assembly->medium, has_foil, &fluid)) return nullptr;
     assembly->bodies.push_back(std::move(fluid));
   }
+  assembly->limits.resize(assembly->bodies.size());
   return CheckOptions(m, owner, assembly->bodies) ? std::move(assembly) : nullptr;
 }
 
@@ -100,9 +103,19 @@ void CorrectStockForces(const mjModel* m, mjData* d, const Medium& medium) {
   }
 }
 
+void Note(const BodyForces& forces, mjtNum timestep, BodyLimits* limits) {
+  const mjtNum share = forces.crossing.Share(timestep);
+  if (share > limits->crossing_share) {
+    limits->crossing_share = share;
+    limits->crossing_speed = std::abs(forces.crossing.speed);
+    limits->crossing_extent = forces.crossing.extent;
+  }
+  limits->reynolds = std::max(limits->reynolds, forces.reynolds);
+}
+
 // The secant D_s makes drag implicit for the first-order integrators: (M + A + h D_s) qacc = f.
 // RK4 needs the true acceleration at each stage.
-void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
+void Evaluate(Assembly& assembly, const mjModel* m, mjData* d) {
   const bool secant = m->opt.integrator != mjINT_RK4;
   bool any = false, chain = false;
   for (const BodyFluid& body : assembly.bodies) {
@@ -111,11 +124,13 @@ void Evaluate(const Assembly& assembly, const mjModel* m, mjData* d) {
     chain |= adds && body.free_dof < 0;
   }
   if (chain) mj_makeM(m, d);  // a repeated evaluation must not add A twice
-  for (const BodyFluid& body : assembly.bodies) {
+  for (size_t i = 0; i < assembly.bodies.size(); ++i) {
+    const BodyFluid& body = assembly.bodies[i];
     if (IsAsleep(m, d, body.id)) continue;
     const Motion motion = BodyMotion(m, d, body);
     BodyForces forces;
     EvaluateBody(m, d, assembly.medium, body, motion, secant && body.implicit, &forces);
+    Note(forces, m->opt.timestep, &assembly.limits[i]);
     ApplyForces(m, d, body, motion, forces);
     if (!AddsInertia(body, secant)) continue;
     if (secant && body.implicit) mju_addToScl(forces.inertia, forces.secant, m->opt.timestep, 36);
@@ -164,7 +179,7 @@ void Reset(const mjModel* m, mjtNum* state, void* data, int instance) {
 }
 
 void Compute(const mjModel* m, mjData* d, int instance, int) {
-  const Assembly* assembly = Stored(d, instance);
+  Assembly* assembly = Stored(d, instance);
   if (assembly && assembly->owner == instance) Evaluate(*assembly, m, d);
 }
 

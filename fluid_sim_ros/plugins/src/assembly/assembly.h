@@ -18,12 +18,21 @@
 
 namespace fluid_sim {
 
+// How far a body has left what its forces are good for, largest since the data was made.
+struct BodyLimits {
+  mjtNum crossing_share = 0;   // of its extent that passed the surface in one step [-]
+  mjtNum crossing_speed = 0;   // at that [m/s]
+  mjtNum crossing_extent = 0;  // and the extent [m]
+  mjtNum reynolds = 0;         // of a drag that goes by it [-]
+};
+
 // Constants of a model, owned by the plugin data of one mjData.
 struct Assembly {
   int owner = -1;  // instance that evaluates
   Medium medium;
-  std::vector<BodyFluid> bodies;  // ascending body id
-  std::vector<Foil> foils;        // by instance and site
+  std::vector<BodyFluid> bodies;   // ascending body id
+  std::vector<BodyLimits> limits;  // of each of them; no force depends on it
+  std::vector<Foil> foils;         // by instance and site
 };
 
 // The assembly of a data, or null for a model without fluid_sim plugins.

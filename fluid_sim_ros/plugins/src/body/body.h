@@ -56,6 +56,8 @@ struct BodyFluid {
   mjtNum solid_moment[3] = {0, 0, 0};  // their volume times centre [m^4]
   mjtNum solid_radius = 0;             // of a ball about their centre that holds them [m]
   std::vector<Solid> solids;           // used where a surface may cut the body
+  mjtNum box_center[3] = {0, 0, 0};    // of the box, along the body axes, that holds them [m]
+  mjtNum box_half[3] = {0, 0, 0};      // half its edges [m]
 
   bool plugin_drag() const { return drag == Drag::kEllipsoid || drag == Drag::kInertiaBox; }
 };

@@ -1,5 +1,7 @@
 #include "body/body_forces.h"
 
+#include <algorithm>
+
 #include "body/damping.h"
 #include "body/ellipsoid.h"
 #include "body/immersion.h"
@@ -105,6 +107,7 @@ void AddEllipsoidForces(const BodyFluid& body, const DragEllipsoid& part, const 
   RotateBack(w, part.rotation, nu + 3);
   const Resistance k = EllipsoidResistance(part.shape, body.options, fluid, w, v);
   const EllipsoidCoefficients& c = part.shape.coefficients;
+  out->reynolds = std::max(out->reynolds, k.reynolds);
   AddAtPart(part.rotation, arm, k.Drag(w, v), scale, out->term[kDrag]);
   AddAtPart(part.rotation, arm, k.Viscous(w, v), scale, out->term[kViscous]);
   if (c.magnus != 0) {
@@ -212,6 +215,7 @@ Motion BodyMotion(const mjModel* m, const mjData* d, const BodyFluid& body) {
 void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const BodyFluid& body,
                   const Motion& motion, bool secant, BodyForces* out) {
   const Immersion immersion = Immerse(d, medium, body, motion);
+  out->crossing = immersion.crossing;
   const mjtNum lower_density = LowerDensity(medium, m);
   Flow flows[2];
   mjtNum growth[2] = {0, 0};  // d(multiplier of A)/dt that each fluid brings

@@ -5,6 +5,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include <cmath>
+
 #include "body/body.h"
 #include "medium/medium.h"
 #include "shared/terms.h"
@@ -19,13 +21,29 @@ struct Motion {
   mjtNum bias[6];          // acceleration that qacc = 0 leaves, R'Jdot q' [m/s^2], [rad/s^2]
 };
 
+// How fast a body goes through the surface: the forces are those of the instants that the steps
+// take, so a body that crosses in few steps gets them wrong.
+struct Crossing {
+  mjtNum speed = 0;   // of the surface relative to the body, along the surface's normal [m/s]
+  mjtNum extent = 0;  // of the body along that normal [m]; 0: no surface
+  mjtNum gap = 0;     // between body and surface [m]; <= 0: they touch
+
+  // Share of the body's extent that passes the surface in a step, or 0 where it will not.
+  mjtNum Share(mjtNum timestep) const {
+    const mjtNum way = std::abs(speed) * timestep;
+    return extent > 0 && gap < way ? way / extent : 0;
+  }
+};
+
 // About O in body axes, force then torque.
 struct BodyForces {
   mjtNum term[kTermCount][6] = {};  // explicit wrench per term
   mjtNum inertia[36] = {};          // added mass now: wetted share and densities included
   mjtNum secant[36] = {};           // D_s of the damping forces: f = -D_s nu at this state
   mjtNum fluid_energy = 0;          // kinetic energy of the displaced flow, nu'A nu/2 [J]
-  mjtNum surface_loss = 0;          // what entry (slamming) and exit take of it and the body [W]
+  Crossing crossing;
+  mjtNum reynolds = 0;      // largest of the ellipsoids whose drag goes by it [-]
+  mjtNum surface_loss = 0;  // what entry (slamming) and exit take of it and the body [W]
 };
 
 // From qvel alone for a free tree, else from MuJoCo's position and velocity stages.

@@ -45,6 +45,16 @@ bool ReadSolids(const mjModel* m, const Config& config, BodyFluid* out) {
   return true;
 }
 
+void SetBox(BodyFluid* out) {
+  if (out->solids.empty()) return;
+  mjtNum low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  for (const Solid& solid : out->solids) GrowBox(solid, low, high);
+  for (int i = 0; i < 3; ++i) {
+    out->box_center[i] = 0.5 * (low[i] + high[i]);
+    out->box_half[i] = 0.5 * (high[i] - low[i]);
+  }
+}
+
 }  // namespace
 
 bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
@@ -78,6 +88,7 @@ bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out) {
     mju_scl3(middle, out->solid_moment, 1 / out->solid_volume);
     out->solid_radius = std::max(out->solid_radius, mju_dist3(solid.center, middle) + solid.radius);
   }
+  SetBox(out);
   if (automatic) out->volume = out->solid_volume;
   if (center.empty()) return true;
   mju_addScl3(out->center_shift, center.data(), out->solid_moment, -1 / out->solid_volume);

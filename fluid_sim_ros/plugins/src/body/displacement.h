@@ -35,6 +35,9 @@ bool GeomSolid(const mjModel* m, int geom, Solid* solid, std::string* reason);
 // A ball that stands for a body without usable geoms.
 Solid BallSolid(mjtNum volume, const mjtNum center[3]);
 
+// Raise low and high [m], body axes, until the box between them holds the solid.
+void GrowBox(const Solid& solid, mjtNum low[3], mjtNum high[3]);
+
 // Add the part of the solid below the plane.
 void AddWetPart(const Solid& solid, const mjtNum normal[3], mjtNum offset, WetPart* part);
 

@@ -11,11 +11,12 @@ namespace {
 // Diameter of the sphere that the Stokes drag and the Reynolds number take [m].
 mjtNum MeanDiameter(const mjtNum r[3]) { return 2.0 / 3.0 * (r[0] + r[1] + r[2]); }
 
-mjtNum BluntCoefficient(const EllipsoidShape& shape, const DragOptions& options,
-                        const FluidConstants& fluid, mjtNum speed) {
-  if (!options.brown_lawler) return shape.coefficients.blunt;
-  if (fluid.viscosity <= 0) return 0.5 * 0.407;  // Re without bound
-  return BrownLawlerBlunt(fluid.density * speed * MeanDiameter(shape.semiaxes) / fluid.viscosity);
+// Re that the blunt coefficient goes by; 0 where it is constant, infinite without viscosity.
+mjtNum ReynoldsNumber(const EllipsoidShape& shape, const DragOptions& options,
+                      const FluidConstants& fluid, mjtNum speed) {
+  if (!options.brown_lawler) return 0;
+  if (fluid.viscosity <= 0) return fluid.density * speed > 0 ? kInfinity : 0;
+  return fluid.density * speed * MeanDiameter(shape.semiaxes) / fluid.viscosity;
 }
 
 Wrench Against(mjtNum linear, mjtNum angular, const mjtNum w[3], const mjtNum v[3]) {
@@ -62,6 +63,7 @@ mjtNum TrueProjectedArea(const mjtNum r[3], const mjtNum v[3]) {
 
 mjtNum BrownLawlerBlunt(mjtNum reynolds) {
   if (reynolds <= 0) return 0;  // times |v|, the limit is zero
+  if (std::isinf(reynolds)) return 0.5 * 0.407;
   return 0.5 * (3.6 * std::pow(reynolds, -0.319) + 0.407 * reynolds / (reynolds + 8710));
 }
 
@@ -74,7 +76,8 @@ Resistance EllipsoidResistance(const EllipsoidShape& shape, const DragOptions& o
   const mjtNum speed = mju_norm3(v);
   const mjtNum area = options.true_area ? TrueProjectedArea(r, v) : ProjectEllipsoid(r, v).area;
   const mjtNum area_max = kPi * longest * middle;
-  const mjtNum blunt = BluntCoefficient(shape, options, fluid, speed);
+  const mjtNum reynolds = ReynoldsNumber(shape, options, fluid, speed);
+  const mjtNum blunt = options.brown_lawler ? BrownLawlerBlunt(reynolds) : c.blunt;
 
   const mjtNum unit = 8.0 / 15.0 * kPi, inertia_max = unit * middle * Fourth(longest);
   mjtNum moment[3];
@@ -85,7 +88,7 @@ Resistance EllipsoidResistance(const EllipsoidShape& shape, const DragOptions& o
   const mjtNum diameter = MeanDiameter(r);
   return {fluid.density * speed * (blunt * area + c.slender * (area_max - area)),
           fluid.density * mju_norm3(moment), 3 * kPi * diameter * fluid.viscosity,
-          kPi * diameter * diameter * diameter * fluid.viscosity};
+          kPi * diameter * diameter * diameter * fluid.viscosity, reynolds};
 }
 
 Wrench EllipsoidMagnus(const EllipsoidShape& shape, const FluidConstants& fluid, const mjtNum w[3],

@@ -51,6 +51,7 @@ mjtNum BrownLawlerBlunt(mjtNum reynolds);
 // quadratic drag, then of the viscous term (Stokes drag of a sphere of the mean diameter).
 struct Resistance {
   mjtNum linear, angular, viscous_linear, viscous_angular;
+  mjtNum reynolds;  // that the blunt coefficient was taken at [-]; 0 where it is constant
 
   Wrench Drag(const mjtNum w[3], const mjtNum v[3]) const;
   Wrench Viscous(const mjtNum w[3], const mjtNum v[3]) const;

@@ -63,6 +63,22 @@ mjtNum VolumeRate(const Plane& plane, const WetPart& part, const BodyFluid& body
   return plane.upright * rise - mju_dot3(plane.normal, velocity);
 }
 
+// Of the box that holds the body; `reach` is how far the surface may lie from its plane.
+Crossing CrossingOf(const Plane& plane, mjtNum reach, const BodyFluid& body, const Motion& motion) {
+  Crossing out;
+  mjtNum arm[3], velocity[3], offset[3];
+  mju_sub3(arm, body.box_center, body.point);
+  mju_copy3(velocity, motion.velocity);
+  AddCross(velocity, motion.velocity + 3, arm);
+  mju_sub3(offset, body.box_center, plane.middle);
+  const mjtNum rise = plane.rise + mju_dot3(plane.rise_slope, offset);
+  out.speed = plane.upright * rise - mju_dot3(plane.normal, velocity);
+  for (int i = 0; i < 3; ++i) out.extent += 2 * body.box_half[i] * std::abs(plane.normal[i]);
+  const mjtNum apart = std::abs(plane.offset - mju_dot3(plane.normal, body.box_center));
+  out.gap = apart - reach - 0.5 * out.extent;
+  return out;
+}
+
 }  // namespace
 
 Immersion Immerse(const mjData* d, const Medium& medium, const BodyFluid& body,
@@ -78,6 +94,10 @@ Immersion Immerse(const mjData* d, const Medium& medium, const BodyFluid& body,
     mju_addTo3(middle_w, d->xpos + 3 * body.id);
     const mjtNum height = middle_w[2] - medium.surface;
     const mjtNum far = medium.waves.reach + medium.waves.tilt * body.solid_radius;
+    if (std::abs(height) >= far) {
+      plane = LevelPlane(d, medium, body, motion);
+      out.crossing = CrossingOf(plane, medium.waves.reach, body, motion);
+    }
     if (height <= -far) return out;
     if (height >= far) {
       mju_zero3(out.moment);
@@ -88,6 +108,7 @@ Immersion Immerse(const mjData* d, const Medium& medium, const BodyFluid& body,
   } else {
     plane = LevelPlane(d, medium, body, motion);
   }
+  out.crossing = CrossingOf(plane, 0, body, motion);
   WetPart part;
   for (const Solid& solid : body.solids) AddWetPart(solid, plane.normal, plane.offset, &part);
   mju_copy3(out.moment, part.moment);

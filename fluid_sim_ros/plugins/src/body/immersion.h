@@ -16,6 +16,7 @@ struct Immersion {
   mjtNum wet = 1;                // share of the volume below the surface [-]
   mjtNum rate = 0;               // its time derivative [1/s]
   mjtNum moment[3] = {0, 0, 0};  // of the wet part of the solids [m^4]
+  Crossing crossing;
 };
 
 // Waves cut the body along their tangent plane over the middle of its solids, so they are to be

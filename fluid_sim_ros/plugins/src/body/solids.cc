@@ -186,6 +186,22 @@ bool GeomSolid(const mjModel* m, int geom, Solid* solid, std::string* reason) {
   return false;
 }
 
+void GrowBox(const Solid& solid, mjtNum low[3], mjtNum high[3]) {
+  const auto include = [&](int axis, mjtNum from, mjtNum to) {
+    low[axis] = std::min(low[axis], from);
+    high[axis] = std::max(high[axis], to);
+  };
+  for (size_t i = 0; i < solid.triangles.size(); ++i) {
+    include(i % 3, solid.triangles[i], solid.triangles[i]);
+  }
+  for (int i = 0; i < 3 && solid.triangles.empty(); ++i) {
+    mjtNum reach[3];  // of the ellipsoid along body axis i
+    for (int k = 0; k < 3; ++k) reach[k] = solid.rotation[3 * i + k] * solid.semiaxes[k];
+    const mjtNum half = mju_norm3(reach);
+    include(i, solid.position[i] - half, solid.position[i] + half);
+  }
+}
+
 Solid BallSolid(mjtNum volume, const mjtNum center[3]) {
   Solid solid;
   const mjtNum unit[4] = {1, 0, 0, 0}, radius = std::cbrt(volume / (4.0 / 3.0 * kPi));
