@@ -1,6 +1,7 @@
 """Everything that is refused or warned about when a model is loaded, each with one line."""
 
 import mujoco
+import numpy as np
 import pytest
 
 from fluid_sim_ros.plugins.messages import load_error_line
@@ -253,3 +254,28 @@ def test_other_errors_come_back_on_one_line():
         mujoco.MjModel.from_xml_string('<mujoco><nonsense/></mujoco>')
     assert '\n' not in load_error_line(caught.value)
     assert 'nonsense' in load_error_line(caught.value)
+
+
+@pytest.mark.parametrize('gravity', ['0 0 9.81', '1 0 -9.81', '0 -9.81 0', '9.81 0 0', '0 .1 0'])
+@pytest.mark.parametrize('waves', [{}, {'waves': 'regular .2 5'}])
+def test_gravity_not_along_minus_z_with_a_surface_is_refused(gravity, waves):
+    sea = SEA | {'surface': 0} | waves
+    xml = world(hull(volume='auto'), medium=sea, gravity=[float(g) for g in gravity.split()])
+    line = line_of(xml)
+    assert line.startswith("fluid_sim.medium: model: surface = '0'")
+    for word in ('gravity', '-z', '0 0 -g'):
+        assert word in line
+
+
+def test_gravity_in_any_direction_without_a_surface():
+    for gravity in ([0, 0, 9.81], [1, 2, -3]):
+        model, data = load(world(hull(volume='auto', drag='none'), medium=SEA, gravity=gravity))
+        volume = 4 / 3 * np.pi * 0.3 * 0.2 * 0.1
+        mujoco.mj_forward(model, data)
+        np.testing.assert_allclose(
+            data.qfrc_passive[:3], -1000 * volume * np.array(gravity), rtol=1e-12
+        )
+
+
+def test_a_surface_without_gravity_lies_where_it_is_stated():
+    load(world(hull(volume='auto'), medium=SEA | {'surface': 0}, gravity=[0, 0, 0]))

@@ -52,4 +52,4 @@ def test_bad_waves_are_refused_with_one_line(case):
 @pytest.mark.parametrize('gravity', [[0, 0, 0], [0, 0, 9.81], [1, 0, -9.81]])
 def test_waves_need_gravity_straight_down(gravity):
     line = refusal(world(HULL, medium=REGULAR, gravity=gravity), 'fluid_sim.medium')
-    assert 'waves need gravity straight down' in line
+    assert 'set opt gravity to 0 0 -g' in line

@@ -80,6 +80,16 @@ bool ReadRandom(const Config& config, const mjModel* m, Medium* medium) {
   return true;
 }
 
+// A surface is level in world z: under any other gravity water would not lie there. Without gravity
+// nothing tells how it lies, and it is taken as it is stated.
+bool CheckGravity(const mjModel* m, const Config& config) {
+  const mjtNum* g = m->opt.gravity;
+  if (g[0] == 0 && g[1] == 0 && g[2] <= 0) return true;
+  return config.Refuse("surface",
+                       "none while gravity does not point along -z, for the surface is level in "
+                       "world z; set opt gravity to 0 0 -g");
+}
+
 }  // namespace
 
 // clang-format off
@@ -113,6 +123,7 @@ bool ReadMedium(const mjModel* m, Medium* medium) {
                        &medium->surface)) {
       return false;
     }
+    if (medium->has_surface && !CheckGravity(m, config)) return false;
     if (!config.Number("density", 0, kInfinity, density, &medium->density[0]) ||
         !config.Number("viscosity", 0, kInfinity, viscosity, &medium->viscosity[0]) ||
         !config.Number("density_above", 0, kInfinity, density, &medium->density[1]) ||
