@@ -144,11 +144,20 @@ bool ReadDamping(const Config& config, Damping* damping) {
 
 }  // namespace
 
-const char* const kBodyAttributes[] = {
-    "added_mass",    "reference_point",     "linear_damping", "quadratic_damping",
-    "cross_damping", "cross_damping_total", "drag",           "drag_area",
-    "drag_reynolds", "rotational_damping",  "volume",         "center_of_buoyancy",
-    "geoms"};
+const char* const kBodyAttributes[] = {"added_mass",
+                                       "reference_point",
+                                       "linear_damping",
+                                       "quadratic_damping",
+                                       "cross_damping",
+                                       "cross_damping_total",
+                                       "drag",
+                                       "drag_area",
+                                       "drag_reynolds",
+                                       "drag_angular",
+                                       "rotational_damping",
+                                       "volume",
+                                       "center_of_buoyancy",
+                                       "geoms"};
 const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
 
 bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bool has_foil,

@@ -65,13 +65,15 @@ bool ReadDrag(const mjModel* m, const Config& config, const Medium& medium, bool
   const int drag = config.Word("drag", {"builtin", "ellipsoid", "inertia_box", "none"});
   const int area = config.Word("drag_area", {"lemma", "true"});
   const int reynolds = config.Word("drag_reynolds", {"constant", "brown_lawler"});
-  if (drag < 0 || area < 0 || reynolds < 0 || !ReadSpinDamping(config, out)) return false;
+  const int angular = config.Word("drag_angular", {"slender", "swept"});
+  if (drag < 0 || area < 0 || reynolds < 0 || angular < 0 || !ReadSpinDamping(config, out))
+    return false;
   const bool stated = config.Has("drag");
   out->drag = stated ? static_cast<Drag>(drag) : DefaultDrag(m, medium, has_foil, *out);
   out->implicit = stated || !MovesSimply(m, out->id);
-  out->options = {area == 1, reynolds == 1};
+  out->options = {area == 1, reynolds == 1, angular == 1};
   if (out->drag != Drag::kEllipsoid) {
-    for (const char* key : {"drag_area", "drag_reynolds", "rotational_damping"}) {
+    for (const char* key : {"drag_area", "drag_reynolds", "drag_angular", "rotational_damping"}) {
       if (config.Has(key)) return config.Fail(std::string(key) + " needs drag=\"ellipsoid\"");
     }
     return true;

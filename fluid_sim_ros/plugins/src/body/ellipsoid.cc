@@ -80,10 +80,11 @@ Resistance EllipsoidResistance(const EllipsoidShape& shape, const DragOptions& o
   const mjtNum blunt = options.brown_lawler ? BrownLawlerBlunt(reynolds) : c.blunt;
 
   const mjtNum unit = 8.0 / 15.0 * kPi, inertia_max = unit * middle * Fourth(longest);
+  const mjtNum slender = options.swept_only ? 0 : c.slender;
   mjtNum moment[3];
   for (int i = 0; i < 3; ++i) {
     const mjtNum swept = unit * r[i] * Fourth(std::max(r[(i + 1) % 3], r[(i + 2) % 3]));
-    moment[i] = w[i] * (c.angular * swept + c.slender * (inertia_max - swept));
+    moment[i] = w[i] * (c.angular * swept + slender * (inertia_max - swept));
   }
   const mjtNum diameter = MeanDiameter(r);
   return {fluid.density * speed * (blunt * area + c.slender * (area_max - area)),

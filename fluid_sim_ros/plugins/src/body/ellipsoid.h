@@ -22,6 +22,7 @@ struct EllipsoidCoefficients {
 struct DragOptions {
   bool true_area = false;     // true projected area instead of MuJoCo's
   bool brown_lawler = false;  // blunt coefficient from the Reynolds number
+  bool swept_only = false;    // angular drag without its slender part, C_slender (I_max - I_D)
 };
 
 // An ellipsoid as the drag sees it.
