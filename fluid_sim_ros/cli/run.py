@@ -15,10 +15,10 @@ from rich.table import Table
 from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_line
 from fluid_sim_ros.cli.shared import plain_lines, progress_bar
 from fluid_sim_ros.cli.signals import stopped_by_signals
-from fluid_sim_ros.errors import ConfigError, needed_for
-from fluid_sim_ros.loop.grid_watch import GridWatch
+from fluid_sim_ros.errors import ConfigError, listed, needed_for
 from fluid_sim_ros.loop.pacing import Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
+from fluid_sim_ros.loop.watchdogs import Watchdogs
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
@@ -42,7 +42,7 @@ class Watcher:
     simulation
         What is watched.
     progress
-        Where warnings and the progress are shown.
+        Where the progress is shown.
 
     Attributes
     ----------
@@ -50,8 +50,6 @@ class Watcher:
         Steps between two looks.
     largest, largest_at
         Largest fluid force per vehicle [N] in scene order, and its time [s], shape (n,).
-    grids
-        What is said of vehicles beyond the grid of their wind or current; shown at once.
 
     """
 
@@ -59,7 +57,6 @@ class Watcher:
         self.period = max(1, round(_SAMPLE_PERIOD / simulation.timestep))
         self.largest = np.zeros(len(simulation.vehicles))
         self.largest_at = np.zeros(len(simulation.vehicles))
-        self.grids = GridWatch(simulation)
         self._progress = progress
         self._shown_at = 0.0
 
@@ -77,8 +74,6 @@ class Watcher:
         force = np.linalg.norm(rows[:, nat.TOTAL][:, :3], axis=1)
         self.largest_at[force > self.largest] = simulation.time
         np.maximum(self.largest, force, out=self.largest)
-        for line in self.grids.new_lines():
-            self._progress.console.print(f'warning: {line}', markup=False, soft_wrap=True)
         now = time.perf_counter()
         if now - self._shown_at > _SHOW_PERIOD:
             self._shown_at = now
@@ -125,11 +120,12 @@ def run_scene(
     -------
     dict
         Settings, real-time factor, and per vehicle the final state and the largest fluid force,
-        units in the keys. Forces are looked at every 0.01 s. ``record_fault`` is what ended the
-        recording before the run, such as a full disk, or empty; ``records`` are all its files,
-        for a restarted autopilot begins another. ``interrupted`` is the signal that ended the
-        run, or empty. ``autopilot`` holds what its bridge counted, and ``fault``, why it ended
-        the run, or empty.
+        units in the keys. Forces are looked at every 0.01 s. ``warnings`` are the lines of the
+        watchdogs, ``remarks`` how vehicles ended where that is worth a word. ``record_fault`` is
+        what ended the recording before the run, such as a full disk, or empty; ``records`` are all
+        its files, for a restarted autopilot begins another. ``interrupted`` is the signal that
+        ended the run, or empty. ``autopilot`` holds what its bridge counted, and ``fault``, why it
+        ended the run, or empty.
 
     Raises
     ------
@@ -154,21 +150,28 @@ def run_scene(
         pacing = RealTime(tick=max(1, round(_SAMPLE_PERIOD / simulation.timestep)))
     with progress_bar('{task.completed:.1f} s') as progress:
         progress.add_task(simulation.scene.name, total=seconds)
+        say = plain_lines(progress.console)
         watcher = Watcher(simulation, progress)
-        sinks: list[Sink] = [watcher]
+        watchdogs = Watchdogs(simulation, lambda line: say(f'warning: {line}'))
+        sinks: list[Sink] = [watcher, watchdogs]
         recording = _recording(simulation, record, record_topics, allow_assets_from, sinks)
         with recording as (files, log):
             begin = time.perf_counter()
             flight = None
             if autopilot is not None:
-                flight = Flight(simulation, pacing, autopilot, log, plain_lines(progress.console))
+                flight = Flight(simulation, pacing, autopilot, log, say)
                 pacing = flight.pacing
             runner = Runner(simulation, NoSource(), sinks, pacing)
             connected = nullcontext() if flight is None else flight.of(runner)
             with stopped_by_signals(runner.stop) as interruption, connected:
                 runner.run(until=steps)
             wall = time.perf_counter() - begin
-    result = _summary(simulation, watcher, wall) | files | {'interrupted': interruption.name}
+        remarks = watchdogs.finish()
+        for line in remarks:
+            say(line)
+    result = _summary(simulation, watcher, wall) | files | {
+        'remarks': remarks, 'interrupted': interruption.name
+    }  # fmt: skip
     return result if flight is None else result | {'autopilot': flight.result}
 
 
@@ -208,7 +211,13 @@ def summary_table(result: dict[str, Any]) -> Table:
         Of ``run_scene``.
 
     """
-    caption = 'position in the world (ENU), velocity along base_link (FLU)'
+    caption = '\n'.join([
+        'position in the world (ENU), velocity along base_link (FLU)',
+        *(
+            escape(f'{name}: terms: {listed(vehicle["terms"])}')
+            for name, vehicle in result['vehicles'].items()
+        ),
+    ])  # fmt: skip
     if 'autopilot' in result:
         caption = f'{counts_line(result["autopilot"])}\n{caption}'
     table = Table(
@@ -235,6 +244,7 @@ def _summary(simulation: Simulation, watcher: Watcher, wall: float) -> dict[str,
     integrator = mujoco.mjtIntegrator(simulation.model.opt.integrator).name
     vehicles = {
         name: {
+            'terms': list(simulation.terms[name]),
             'position_w_m': state.position_w.tolist(),
             'quat_wb_wxyz': state.quat_wb_wxyz.tolist(),
             'velocity_b_m_s': state.velocity_b.tolist(),
@@ -254,7 +264,7 @@ def _summary(simulation: Simulation, watcher: Watcher, wall: float) -> dict[str,
         'steps': snapshot.step,
         'wall_s': wall,
         'real_time_factor': snapshot.time / wall,
-        'warnings': watcher.grids.lines,
+        'warnings': simulation.warnings.lines,
         'vehicles': vehicles,
     }
 

@@ -44,6 +44,11 @@ def examine_scene(scene: str | Path) -> list[Row]:
         Row('vehicles', 'ok', listed(simulation.vehicles)),
         Row('flow', 'ok', f'{source}: {_SOURCES[source]}'),
         *(
+            Row(f'{name}: terms', 'ok' if terms else 'absent', listed(terms))
+            for name, terms in simulation.terms.items()
+        ),
+        *(Row('warning', 'absent', line) for line in simulation.warnings.lines),
+        *(
             Row(name, 'ok', _models(getattr(stated, name)))
             for name in simulation.streams
         ),

@@ -1,11 +1,10 @@
-"""Says once where a vehicle leaves what its flow or its fluid forces are good for."""
+"""Says once where a vehicle, or the time, leaves the grid of its wind or current."""
 
 import numpy as np
 
 from fluid_sim_ros.physics.environment.grid import AXES
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.plugins.config import medium_of
-from fluid_sim_ros.plugins.limits import LimitWatch
 from fluid_sim_ros.simulation import Simulation
 
 _STREAMS = ('current', 'wind')
@@ -24,8 +23,8 @@ class GridWatch:
     Attributes
     ----------
     lines
-        One line per vehicle, stream and axis that was beyond its grid, and one per body and limit
-        of its fluid forces (``plugins.limits``), in the order in which it happened; each once.
+        One line per vehicle, stream and axis that was beyond its grid, in the order in which it
+        happened; each once.
 
     """
 
@@ -33,7 +32,6 @@ class GridWatch:
         self.lines: list[str] = []
         self._simulation = simulation
         self._idle = not _has_grid(simulation)
-        self._limits = LimitWatch(simulation.model, simulation.data)
         self._seen: set[tuple[str, str, str]] = set()
         self._point, self._beyond = np.zeros(3), np.zeros((len(_STREAMS), len(AXES)))
         self._addresses = (
@@ -43,18 +41,15 @@ class GridWatch:
 
     def new_lines(self) -> list[str]:
         """Return the lines that are new at this step boundary."""
+        if self._idle:
+            return []
         known = len(self.lines)
-        self.lines += [f'{line} (t = {self._simulation.time:g} s)' for line in self._limits.look()]
-        if not self._idle:
-            self._look_at_grids()
-        return self.lines[known:]
-
-    def _look_at_grids(self) -> None:
         rows = self._simulation.observe(forces=False)
         for name, row in zip(self._simulation.vehicles, rows, strict=True):
             self._point[:] = row[nat.POSITION]
             if nat.native().beyond_grids(*self._addresses):
                 self._note(name)
+        return self.lines[known:]
 
     def _note(self, vehicle: str) -> None:
         values = dict(zip(AXES, (self._simulation.time, *self._point), strict=True))

@@ -13,10 +13,10 @@ from rclpy.serialization import serialize_message
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.loop.autopilot_port import Bridge
-from fluid_sim_ros.loop.grid_watch import GridWatch
 from fluid_sim_ros.loop.pacing import Lockstep, RealTime
 from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.loop.runner import Runner
+from fluid_sim_ros.loop.watchdogs import Watchdogs
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.ros.graph_monitor import GraphMonitor
@@ -87,7 +87,9 @@ class Diagnostics:
         self._wall = time.monotonic()
         self._simulated = simulation.time
         self._misses = 0
-        self._grids = GridWatch(simulation)
+        for name, terms in simulation.terms.items():
+            node.get_logger().info(f'{name}: terms: {listed(terms)}')
+        self._watchdogs = Watchdogs(simulation, node.get_logger().warning)
         self.real_time_factor = 0.0
 
     def publish(self, runner: Runner, diverged: str) -> None:
@@ -190,8 +192,7 @@ class Diagnostics:
             for warning in _LIMIT_WARNINGS
         }
         balance = self._simulation.energy_balance()
-        for line in self._grids.new_lines():
-            self._node.get_logger().warning(line)
+        self._watchdogs.write(self._simulation)
         values = {
             'kinetic_energy_J': f'{balance.kinetic:.6g}',
             'integrator_feed_W': f'{balance.feed:.3g}',
@@ -202,7 +203,7 @@ class Diagnostics:
         }
         raised = [name for name, count in counts.items() if count]
         message = f'warnings: {", ".join(raised)}' if raised else balance.warning
-        notes = [note for note in (message, *self._grids.lines) if note]
+        notes = [note for note in (message, *self._simulation.warnings.lines) if note]
         if notes:
             return self._status('engine', _WARN, '; '.join(notes), **values)
         return self._status('engine', _OK, 'no warnings', **values)
@@ -237,6 +238,7 @@ class Diagnostics:
         beyond = {s.config.kind: s.saturated for s in self._suites[name].sensors if s.saturated}
         return self._status(
             f'vehicle {name}', _OK, 'moving' if speed else 'at rest',
+            terms=listed(simulation.terms[name]),
             speed_through_medium_m_s=f'{speed:.4f}', reynolds_number=f'{reynolds:.4g}',
             sensor_values_beyond_range=listed(f'{kind} {n}' for kind, n in beyond.items()),
         )  # fmt: skip

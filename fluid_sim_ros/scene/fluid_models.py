@@ -129,7 +129,7 @@ def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:
         if reference.active and (
             reference.plugin_name in _ON_BODIES or reference.name in ours - {''}
         ):
-            instance = plugin_of_body(full, full.body(body.name).id, BODY)
+            instance = plugin_of_body(full, body.id, BODY)
             if instance and instance.text('volume'):
                 body.gravcomp = 1.0
             if reference.id >= 0:  # configured on the body itself, not a named instance

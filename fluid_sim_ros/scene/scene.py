@@ -11,6 +11,7 @@ from fluid_sim_ros.plugins.attached import dropped_plugin
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene.fluid_models import compile_spec, force_fluid
 from fluid_sim_ros.scene.gaits import Gaits
+from fluid_sim_ros.scene.load_warnings import load_warnings
 from fluid_sim_ros.scene.masses import scale_masses
 from fluid_sim_ros.scene.media import streams_of
 from fluid_sim_ros.scene.scene_files import scene_fields, scene_names
@@ -32,7 +33,8 @@ class CompiledScene:
     """
     A MuJoCo model with the scene's names resolved to ids.
 
-    ``streams`` names what of wind and current the scene has.
+    ``streams`` names what of wind and current the scene has; ``warnings`` is what a user must
+    hear of the model.
     """
 
     model: mujoco.MjModel
@@ -40,6 +42,7 @@ class CompiledScene:
     schedule: Schedule
     gaits: Gaits
     streams: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -184,7 +187,8 @@ class Scene:
         streams = dry or streams_of(model, self.medium)
         self._check_weather(streams)
         self._check_keyframe(model)
-        return CompiledScene(model, vehicles, schedule, gaits, streams)
+        warnings = load_warnings(model, every_free_body=self.vehicles is None)
+        return CompiledScene(model, vehicles, schedule, gaits, streams, tuple(warnings))
 
     def read_model(self) -> mujoco.MjSpec:
         """Return the model as it is written, or raise ModelError."""

@@ -91,23 +91,35 @@ def free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:
     Raises
     ------
     ModelError
-        If there is no such body, or its name is no topic name.
+        If there is no such body, its name is no topic name, or two names become the same.
 
     """
-    found = {}
-    for joint in range(model.njnt):
-        if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
-            body = model.body(model.jnt_bodyid[joint]).name
-            name = re.sub(r'[^A-Za-z0-9_]', '_', body)
-            if not re.match(NAME_PATTERN, name):
-                raise ModelError(
-                    f'{path}: a body with a free joint has the name {body!r}, which is no topic '
-                    'name; give it a name that starts with a letter'
-                )
-            found[name] = VehicleFile(body=body)
+    found: dict[str, VehicleFile] = {}
+    free = np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)
+    for joint in free:
+        body = model.body(model.jnt_bodyid[joint]).name
+        if not body:  # scenery; load_warnings says so
+            continue
+        name = re.sub(r'[^A-Za-z0-9_]', '_', body)
+        if not re.match(NAME_PATTERN, name):
+            raise ModelError(
+                f'{path}: a body with a free joint has the name {body!r}, which is no topic '
+                'name; give it a name that starts with a letter'
+            )
+        if name in found:
+            raise ModelError(
+                f'{path}: the bodies {found[name].body!r} and {body!r} both become the vehicle '
+                f'{name!r}; rename one, or name the vehicles and their bodies in a scene YAML file'
+            )
+        found[name] = VehicleFile(body=body)
     if not found:
+        what = (
+            'the bodies with a free joint have no names'
+            if len(free)
+            else ('the model has no body with a free joint')
+        )
         raise ModelError(
-            f'{path}: the model has no body with a free joint, so no vehicle; add a <freejoint/>, '
+            f'{path}: {what}, so there is no vehicle; add a <freejoint/> to a body with a name, '
             'or name the vehicles and their bodies in a scene YAML file'
         )
     return found

@@ -1,6 +1,6 @@
 """What a simulation is told: thrust, joints, wrenches, wind and current; checked and held."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from fluid_sim_ros.errors import CommandError, did_you_mean, listed
 from fluid_sim_ros.physics.arrays import Array
@@ -25,6 +25,8 @@ class Commands:
         Model and data.
     compiled
         Vehicles and gaits.
+    on_unfelt
+        See ``WindAndCurrent``.
 
     Attributes
     ----------
@@ -35,11 +37,16 @@ class Commands:
 
     """
 
-    def __init__(self, engine: Engine, compiled: CompiledScene) -> None:
+    def __init__(
+        self,
+        engine: Engine,
+        compiled: CompiledScene,
+        on_unfelt: Callable[[str], None] | None = None,
+    ) -> None:
         self._vehicles = compiled.vehicles
         self._gaits = compiled.gaits
         self._data = engine.data
-        self.streams = WindAndCurrent(engine, compiled.streams)
+        self.streams = WindAndCurrent(engine, compiled.streams, on_unfelt)
         self.wrenches: dict[str, CommandedWrench] = {}
         control = self._data.ctrl
         self._thrusts = {
@@ -160,7 +167,7 @@ class Commands:
         Raises
         ------
         CommandError
-            Wrong length, not finite, or a scene without air.
+            Wrong length, not finite, a scene without air, or no body that feels it.
 
         """
         self.streams.set('wind', finite('wind', velocity, 3))
@@ -177,7 +184,7 @@ class Commands:
         Raises
         ------
         CommandError
-            Wrong length, not finite, or a scene without water.
+            Wrong length, not finite, a scene without water, or no body that feels it.
 
         """
         self.streams.set('current', finite('current', velocity, 3))

@@ -4,15 +4,18 @@ from fractions import Fraction
 from pathlib import Path
 from types import MappingProxyType
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import CommandError, ConfigError
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation.commands import Commands
 from fluid_sim_ros.simulation.engine import Engine
 from fluid_sim_ros.simulation.events import Events
+from fluid_sim_ros.simulation.fluid_terms import FluidTerms, check_flows, no_flow_line
 from fluid_sim_ros.simulation.saved_state import SavedState
-from fluid_sim_ros.simulation.snapshot import ForceTorque, Snapshot, terms_of
+from fluid_sim_ros.simulation.snapshot import Snapshot
+from fluid_sim_ros.simulation.vehicle_wrenches import VehicleWrenches
+from fluid_sim_ros.simulation.warning_log import WarningLog
 from fluid_sim_ros.step_clock import StepClock
 
 
@@ -51,9 +54,15 @@ class Simulation:
         velocity for all. ``fluid_sim.medium``: each meets its own, by place and time.
     set_thrust, set_joints, set_wrench, set_wind, set_current, enable_wind, apply
         Methods that command; see ``Commands``.
+    terms
+        Vehicle name -> names of the fluid terms that can act on it.
+    warnings
+        The ``WarningLog`` of the run: what was found at load, and by watchdogs.
     observe, largest, energy_balance
         Methods that return the vehicles as rows of numbers, a watch of their largest values, and
         what the integrator does to the energy; see ``Engine``.
+    wrench
+        Method that returns the fluid wrench on a vehicle; see ``VehicleWrenches``.
 
     Raises
     ------
@@ -86,10 +95,15 @@ class Simulation:
         self.model, self.data, self.observed = engine.model, engine.data, engine.observed
         self._engine_step, self.observe = engine.step, engine.observe
         self.energy_balance, self.largest = engine.energy_balance, engine.largest
+        self.wrench = VehicleWrenches(engine, tuple(compiled.vehicles)).wrench
         self.timestep = float(self.model.opt.timestep)
         self._clock = StepClock(self.timestep)
 
-        self._commands = commands = Commands(engine, compiled)
+        terms = FluidTerms(engine.model, engine.data, compiled.vehicles)
+        self.terms = terms.of_vehicles
+        self.warnings = WarningLog((*compiled.warnings, *terms.warnings()))
+        unfelt = None if terms.feel_flow else self._refuse_flow
+        self._commands = commands = Commands(engine, compiled, unfelt)
         self._events = Events(engine, compiled, commands)
         self._streams, self._wrenches = commands.streams, commands.wrenches
         self.streams, self.flow_source = self._streams.available, self._streams.source
@@ -97,7 +111,15 @@ class Simulation:
         self.set_thrust, self.set_joints = commands.set_thrust, commands.set_joints
         self.set_wind, self.set_current = commands.set_wind, commands.set_current
         self.enable_wind, self.set_wrench = commands.enable_wind, commands.set_wrench
+        if unfelt is not None:
+            check_flows(self.scene, unfelt)
         self.reset()
+
+    def _refuse_flow(self, stream: str) -> None:
+        line = f'{stream}: {no_flow_line(stream)}'
+        if self.settings.fluid != 'none':
+            raise CommandError(line)
+        self.warnings.add(f"{stream}: no effect, since the setting 'fluid' is none")
 
     # ---- time ------------------------------------------------------------------------------
 
@@ -235,31 +257,6 @@ class Simulation:
     def snapshot(self) -> Snapshot:
         """Return the state of every vehicle at this step boundary, as copies."""
         return Snapshot.of(self.time, self._step, self.vehicles, self.observe(forces=False))
-
-    def wrench(self, vehicle: str) -> dict[str, ForceTorque]:
-        """
-        Return the fluid wrench on a vehicle term by term, at this step boundary.
-
-        Parameters
-        ----------
-        vehicle
-            Vehicle name.
-
-        Returns
-        -------
-        dict
-            Term (``plugins.native.TERMS``) -> (force, torque), [N] and [N m], shape (3,) each,
-            base_link axes, about its origin, acting on the vehicle; 0 for what is not there.
-
-        Raises
-        ------
-        CommandError
-            If the scene has no such vehicle.
-
-        """
-        self.vehicle(vehicle)  # says which there are
-        rows = self.observe(forces=True)
-        return terms_of(rows[list(self.vehicles).index(vehicle)].copy())
 
     # ---- save and load ---------------------------------------------------------------------
 

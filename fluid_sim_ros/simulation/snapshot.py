@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 
-#: Force [N] and torque [N m], base_link axes, about the base_link origin, acting on the vehicle.
-ForceTorque = tuple[Array, Array]
-
 
 @dataclass(frozen=True)
 class VehicleState:
@@ -86,22 +83,3 @@ class Snapshot:
             for name, row in zip(names, rows.copy(), strict=True)
         }
         return cls(time, step, states)
-
-
-def terms_of(row: Array) -> dict[str, ForceTorque]:
-    """
-    Return the fluid wrench of one vehicle, term by term.
-
-    Parameters
-    ----------
-    row
-        As observed with forces, with the columns of ``plugins.native``; not copied.
-
-    Returns
-    -------
-    dict
-        Term (``plugins.native.TERMS``) -> (force, torque).
-
-    """
-    columns = {term: row[nat.term_columns(term)] for term in nat.TERMS}
-    return {term: (wrench[:3], wrench[3:]) for term, wrench in columns.items()}

@@ -1,5 +1,6 @@
 """Wind and current as commands: where they are written, and whether the scene has them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,11 +38,20 @@ class WindAndCurrent:
         Model and data.
     available
         Which of ``STREAMS`` the scene has.
+    on_unfelt
+        Called with the name of a stream that is commanded although no body feels it; None: bodies
+        feel it.
 
     """
 
-    def __init__(self, engine: Engine, available: tuple[str, ...]) -> None:
+    def __init__(
+        self,
+        engine: Engine,
+        available: tuple[str, ...],
+        on_unfelt: Callable[[str], None] | None = None,
+    ) -> None:
         self.available = available
+        self._on_unfelt = on_unfelt
         self._engine = engine
         self._velocity = {name: np.zeros(3) for name in STREAMS}
         self._written = {name: np.zeros(3) for name in STREAMS}
@@ -116,10 +126,12 @@ class WindAndCurrent:
         Raises
         ------
         CommandError
-            If the scene lacks the stream.
+            If the scene lacks the stream, or no body feels it.
 
         """
         self.check(name)
+        if self._on_unfelt is not None and velocity_w.any():
+            self._on_unfelt(name)
         self._velocity[name] = velocity_w.copy()
         self._write()
 

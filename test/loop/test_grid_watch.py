@@ -72,7 +72,8 @@ def test_scenes_without_a_grid_are_not_looked_at(scene):
 def test_a_run_ends_with_what_was_said(scene, tmp_path, capsys):
     out = tmp_path / 'result.json'
     assert main(['run', str(scene('current')), '--duration', '2', '--json', str(out)]) == 0
-    warnings = json.loads(out.read_text())['warnings']
+    felt, *warnings = json.loads(out.read_text())['warnings']
+    assert felt.startswith("vehicle 'drifter': no fluid acts on it")
     assert [line.split(' is beyond')[0] for line in warnings] == [
         "current grid: 'drifter' at x = 2.02 m", "current grid: 'drifter' at t = 1.51 s"
     ]  # fmt: skip

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from fluid_sim_ros.loop.grid_watch import GridWatch
+from fluid_sim_ros.loop.watchdogs import Watchdogs
 from fluid_sim_ros.physics.reynolds import sphere_cd_brown_lawler
 from fluid_sim_ros.plugins.limits import DRAG_CRISIS, LimitWatch
 from fluid_sim_ros.simulation import Simulation
@@ -135,28 +135,26 @@ def test_a_constant_coefficient_has_no_drag_crisis():
 
 
 def test_a_run_tells_it_among_its_warnings():
-    """The watch of run and node: with the time, and in the same list as the grids' lines."""
+    """The watchdogs of run and node: with the time, and in the same list as the other lines."""
     simulation = Simulation('buoyant_sphere')
-    watch = GridWatch(simulation)
+    watchdogs = Watchdogs(simulation)
     simulation.step(50)
-    assert watch.look() == []
-    base = simulation.vehicles[next(iter(simulation.vehicles))]
+    watchdogs.write(simulation)
+    assert simulation.warnings.lines == []
     simulation.data.qpos[2], simulation.data.qvel[2] = 0.3, -100
     simulation.step(10)
-    lines = watch.look()
-    assert lines
+    watchdogs.write(simulation)
+    lines = list(simulation.warnings.lines)
     assert 'crossed the surface' in lines[0]
     assert f'(t = {simulation.time:g} s)' in lines[0]
-    assert watch.look() == []
-    assert watch.lines == lines
-    assert base.body_id > 0
-    simulation.close()
+    watchdogs.write(simulation)
+    assert simulation.warnings.lines == lines
 
 
 @pytest.mark.parametrize('name', ['amphibious', 'buoyant_sphere', 'wave_buoy'])
 def test_shipped_scenes_resolve_their_surface(name):
     simulation = Simulation(name)
-    watch = GridWatch(simulation)
+    watchdogs = Watchdogs(simulation)
     simulation.step(round(5 / simulation.timestep))
-    assert not any('crossed the surface' in line for line in watch.look())
-    simulation.close()
+    watchdogs.write(simulation)
+    assert not any('crossed the surface' in line for line in simulation.warnings.lines)
