@@ -189,6 +189,8 @@ class StateTopics:
             if thruster_of(*addresses, int(actuator), into)
         ]
 
+        efforts = vehicle.effort_scale
+
         def prepare() -> None:
             for place, actuator in rotors:
                 thruster_of(*addresses, actuator, into)
@@ -196,7 +198,7 @@ class StateTopics:
             numbers[0, :count] = data.qpos[qpos_places]
             numbers[1, :count] = data.qvel[dof_places]
             numbers[2, :count] = data.qfrc_actuator[dof_places]
-            numbers[2, count:] = data.actuator_force[vehicle.thruster_ids]
+            numbers[2, count:] = efforts * data.actuator_force[vehicle.thruster_ids]
 
         rows = dict(zip(('position', 'velocity', 'effort'), numbers, strict=True))
         self._add(

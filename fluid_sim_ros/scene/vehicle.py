@@ -13,6 +13,7 @@ from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 from fluid_sim_ros.plugins.config import THRUSTER, plugin_of_actuator
+from fluid_sim_ros.scene.newtons import newton_scales
 from fluid_sim_ros.schema.base import NAME_PATTERN
 from fluid_sim_ros.schema.scene import VehicleFile
 from fluid_sim_ros.schema.sensors import SensorsFile
@@ -35,6 +36,9 @@ class Vehicle:
         Actuator names in command order, and their ids, shape (n,).
     thrust_range
         Allowed commands [N], shape (n, 2); infinite where the model sets no limit.
+    thrust_scale, effort_scale
+        Force at a control of 1, and at an ``actuator_force`` of 1 [N], shape (n,): a motor of
+        gear 50 gives 50 N for both; 1 where MuJoCo's numbers are newtons already.
     joints, joint_ids
         Actuators that ``cmd/joints`` sets by name, and their ids.
     joint_range
@@ -51,6 +55,8 @@ class Vehicle:
     thrusters: tuple[str, ...]
     thruster_ids: NDArray[np.int64]
     thrust_range: Array
+    thrust_scale: Array
+    effort_scale: Array
     joints: tuple[str, ...]
     joint_ids: NDArray[np.int64]
     joint_range: Array
@@ -171,6 +177,7 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
                 'which takes no command; name the actuator of its thrust'
             )
     joint_ids = _actuator_ids(model, joints, where)
+    thrust_scale, effort_scale = newton_scales(model, thruster_ids)
     return Vehicle(
         name=name,
         body_id=int(body_id),
@@ -178,7 +185,9 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
         dof_address=int(model.jnt_dofadr[joint]) if free else -1,
         thrusters=tuple(thrusters),
         thruster_ids=thruster_ids,
-        thrust_range=_control_range(model, thruster_ids),
+        thrust_range=_control_range(model, thruster_ids) * thrust_scale[:, None],
+        thrust_scale=thrust_scale,
+        effort_scale=effort_scale,
         joints=tuple(joints),
         joint_ids=joint_ids,
         joint_range=_control_range(model, joint_ids),

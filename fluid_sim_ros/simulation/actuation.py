@@ -65,6 +65,8 @@ class Controls:
         Begin of error messages.
     names, ids, limits
         The actuators, in command order; limits of shape (n, 2), infinite where there is none.
+    scale
+        Command at a control of 1, shape (n,); None: commands are controls.
 
     """
 
@@ -75,7 +77,9 @@ class Controls:
         names: Sequence[str],
         ids: NDArray[np.int64],
         limits: Array,
+        scale: Array | None = None,
     ) -> None:
+        self._scale = None if scale is None or (scale == 1.0).all() else scale.copy()
         self._what, self._names = what, f'({listed(names)})'
         self._low, self._high = limits[:, 0].copy(), limits[:, 1].copy()
         self._saturated = np.empty(len(names))
@@ -88,7 +92,7 @@ class Controls:
     def read(self) -> Array:
         """Return the present commands."""
         present: Array = self._target[self._place].copy()
-        return present
+        return present if self._scale is None else present * self._scale
 
     def write(self, values: Sequence[float] | Array) -> int:
         """
@@ -113,7 +117,7 @@ class Controls:
         saturated = self._saturated
         command = finite(self._what, values, len(saturated), self._names)
         np.minimum(np.maximum(command, self._low, out=saturated), self._high, out=saturated)
-        self._target[self._place] = saturated
+        self._target[self._place] = saturated if self._scale is None else saturated / self._scale
         return int(np.count_nonzero(saturated != command))
 
 

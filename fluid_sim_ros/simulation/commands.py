@@ -51,7 +51,12 @@ class Commands:
         control = self._data.ctrl
         self._thrusts = {
             v.name: Controls(
-                control, f"thrust of '{v.name}'", v.thrusters, v.thruster_ids, v.thrust_range
+                control,
+                f"thrust of '{v.name}'",
+                v.thrusters,
+                v.thruster_ids,
+                v.thrust_range,
+                v.thrust_scale,
             )
             for v in self._vehicles.values()
         }

@@ -48,7 +48,7 @@ def thrust_matrix(model: mujoco.MjModel, data: mujoco.MjData, vehicle: Vehicle) 
         _column(model, data, name, int(actuator), frame, data.xpos[vehicle.body_id])
         for name, actuator in zip(vehicle.thrusters, vehicle.thruster_ids, strict=True)
     ]
-    return np.array(columns).T.reshape(6, -1)
+    return np.array(columns).T.reshape(6, -1) / vehicle.thrust_scale
 
 
 def _column(
