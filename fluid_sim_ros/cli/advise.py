@@ -4,7 +4,7 @@ import argparse
 from typing import Any
 
 from fluid_sim_ros.cli.lab_tables import advice_table
-from fluid_sim_ros.cli.shared import Show, add_command, progress_of_parts
+from fluid_sim_ros.cli.shared import Show, add_command, fraction, progress_of_parts
 
 #: Exit code where nothing meets the tolerance.
 NOTHING_FITS = 1
@@ -26,8 +26,8 @@ def add_parser(commands: Any, show: Show) -> None:
     advise = add_command(commands, 'advise', text, _advise, show)
     advise.add_argument('scene', metavar='SCENE', help='name (fluid_sim scenes) or file')
     advise.add_argument(
-        '--tolerance', type=float, required=True, metavar='X',
-        help='largest relative error against the converged run of the full model (0.01: 1 %%)',
+        '--tolerance', type=fraction, required=True, metavar='X',
+        help='largest relative error against the converged run of the full model (0.01 or 1%%)',
     )  # fmt: skip
     advise.add_argument('--duration', type=float, metavar='S', help='default: of the scene [s]')
     advise.add_argument(

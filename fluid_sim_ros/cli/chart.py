@@ -1,15 +1,26 @@
 """``fluid_sim chart``: speed against accuracy of problems and scenes."""
 
 import argparse
+import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli.lab_tables import fronts_table
-from fluid_sim_ros.cli.shared import Show, add_command, progress_of_parts
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_of_parts
+from fluid_sim_ros.errors import ConfigError, FluidSimError
 
-#: Timesteps of a quick chart [s].
-_QUICK = (0.02, 0.01, 0.005, 0.002)
+if TYPE_CHECKING:
+    from fluid_sim_ros.lab.problems.problem import Problem
+    from fluid_sim_ros.lab.progress import Report
+
+#: A quick chart: so many timesteps, the largest of them [s], and bursts of steps.
+_QUICK_COUNT, _QUICK_LARGEST, _QUICK_ROUNDS = 4, 0.02, 10
+#: Exit code where some of the problems failed.
+FAILED = 2
+#: What one problem may end in without taking the others with it.
+_CAUGHT = (FluidSimError, RuntimeError, ArithmeticError, LookupError, ValueError, TypeError)
 
 
 def add_parser(commands: Any, show: Show) -> None:
@@ -28,11 +39,14 @@ def add_parser(commands: Any, show: Show) -> None:
     chart = add_command(commands, 'chart', text, _chart, show)
     chart.add_argument(
         'problem', metavar='PROBLEM', nargs='*',
-        help='problems or scenes; all: every problem; none: list them',
+        help='problems, scenes (name or file); all: every problem; none: list them',
     )  # fmt: skip
     chart.add_argument('--out', metavar='FOLDER', type=Path, default=Path('out/chart'))
     chart.add_argument('--integrators', nargs='+', metavar='NAME', help='default: all five')
     chart.add_argument('--timesteps', nargs='+', type=float, metavar='S', help='[s]')
+    chart.add_argument(
+        '--metric', default='pose', help='pose, position, attitude, velocity or regime'
+    )
     chart.add_argument(
         '--rounds', type=int, default=60, help='timed bursts of steps per curve (default 60)'
     )
@@ -54,62 +68,91 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
 
     if arguments.time_again and not arguments.saved:
         raise ConfigError('--time-again: needs --from JSON, the charts to time')
-    if arguments.saved:
-        found = [results.load(path, 'points') for path in arguments.saved]
-        if arguments.time_again:
-            found = _timed_again(found, 10 if arguments.quick else arguments.rounds)
-    elif arguments.problem:
-        found = _measured(arguments)
-    else:
+    if not (arguments.saved or arguments.problem):
         return _list_problems(arguments, show)
-    folder: Path = arguments.out
-    folder.mkdir(parents=True, exist_ok=True)
-    files = []
-    for result in found:
-        stem = folder / result['problem']
-        files += [
-            results.save(result, stem.with_suffix('.json')),
-            results.write_csv(result, stem.with_suffix('.csv')),
-            draw(result, stem.with_suffix('.png')),
-        ]
-    files.append(write_chart_page(found, folder / 'chart.html'))
+    found: list[dict[str, Any]] = []
+    failed: dict[str, str] = {}
+    files: list[Path] = []
+    with made_folder(arguments.out) as folder, progress_of_parts() as report:
+        for name, make in _charts(arguments, report):
+            try:
+                result = make()
+                stem = folder / result['problem']
+                # as they come: what fails later takes nothing from those before
+                files += [
+                    results.save(result, stem.with_suffix('.json')),
+                    results.write_csv(result, stem.with_suffix('.csv')),
+                    draw(result, stem.with_suffix('.png')),
+                ]
+                found.append(result)
+            except _CAUGHT as error:
+                failed[name] = _reason(error)
+        if found:
+            files.append(write_chart_page(found, folder / 'chart.html'))
+    lines = [f'{name} failed: {reason}' for name, reason in failed.items()]
+    if not found:
+        raise ConfigError('\n'.join(failed.values()))
     show(
-        arguments.json,
-        fronts_table(found, files),
-        {'charts': found, 'files': [str(file) for file in files]},
-    )
-    return 0
+        arguments.json, fronts_table(found, files, lines),
+        {'charts': found, 'failed': failed, 'files': [str(file) for file in files]},
+    )  # fmt: skip
+    for line in lines:
+        sys.stderr.write(f'fluid_sim: {line}\n')
+    return FAILED if failed else 0
 
 
-def _measured(arguments: argparse.Namespace) -> list[dict[str, Any]]:
-    from fluid_sim_ros.lab.charts.measure import measure
+def _reason(error: Exception) -> str:
+    return str(error) if isinstance(error, FluidSimError) else f'{type(error).__name__}: {error}'
+
+
+def _charts(
+    arguments: argparse.Namespace, report: 'Report'
+) -> list[tuple[str, Callable[[], dict[str, Any]]]]:
+    """Return what is charted, by name, each as a function that measures it."""
+    from fluid_sim_ros.lab import results
+    from fluid_sim_ros.lab.charts.measure import measure, time_again
     from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
     from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 
+    rounds = _QUICK_ROUNDS if arguments.quick else arguments.rounds
+
+    def measured(name: str) -> dict[str, Any]:
+        case = problem(name)
+        steps = arguments.timesteps or (quick_timesteps(case) if arguments.quick else ())
+        return measure(
+            case, integrators=arguments.integrators or INTEGRATORS, timesteps=steps,
+            metric_name=arguments.metric, rounds=rounds, report=report,
+        )  # fmt: skip
+
+    def saved(path: Path) -> dict[str, Any]:
+        result = results.load(path, 'points')
+        if not arguments.time_again:
+            return result
+        return time_again(result, problem(result['problem']), rounds=rounds, report=report)
+
+    if arguments.saved:
+        return [(str(path), partial(saved, path)) for path in arguments.saved]
     names = list(PROBLEMS) if arguments.problem == ['all'] else arguments.problem
-    problems = [problem(name) for name in names]
-    with progress_of_parts() as report:
-        return [
-            measure(
-                each,
-                integrators=arguments.integrators or INTEGRATORS,
-                timesteps=arguments.timesteps or (_QUICK if arguments.quick else ()),
-                rounds=10 if arguments.quick else arguments.rounds,
-                report=report,
-            )
-            for each in problems
-        ]
+    return [(name, partial(measured, name)) for name in names]
 
 
-def _timed_again(found: list[dict[str, Any]], rounds: int) -> list[dict[str, Any]]:
-    from fluid_sim_ros.lab.charts.measure import time_again
-    from fluid_sim_ros.lab.problems.catalogue import problem
+def quick_timesteps(case: 'Problem') -> tuple[float, ...]:
+    """
+    Return the timesteps of a quick chart.
 
-    with progress_of_parts() as report:
-        return [
-            time_again(each, problem(each['problem']), rounds=rounds, report=report)
-            for each in found
-        ]
+    Parameters
+    ----------
+    case
+        The problem; a gait or an event may allow small timesteps only.
+
+    Returns
+    -------
+    tuple
+        The largest of the problem's own ones, from 20 ms down [s].
+
+    """
+    small = [step for step in case.timesteps if step <= _QUICK_LARGEST]
+    return tuple(small[:_QUICK_COUNT]) or case.timesteps[-_QUICK_COUNT:]
 
 
 def _list_problems(arguments: argparse.Namespace, show: Show) -> int:

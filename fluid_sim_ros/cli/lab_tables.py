@@ -1,15 +1,22 @@
 """How ``fluid_sim chart`` and ``fluid_sim advise`` show what they found."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.cli.shared import unbroken
+
 #: So many lines on what was not tried; all of them are in the JSON.
 _MOST = 6
+#: Processor time of a simulated second.
+_COST = 'µs per s'
 
 
-def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
+def fronts_table(
+    found: Sequence[dict[str, Any]], files: Sequence[Path], lines: Sequence[str] = ()
+) -> Any:
     """
-    Return the Pareto fronts as a table.
+    Return the Pareto fronts as tables, one for each problem.
 
     Parameters
     ----------
@@ -17,6 +24,8 @@ def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
         Results of charts.
     files
         What was written.
+    lines
+        What else a reader must know.
 
     Returns
     -------
@@ -30,19 +39,25 @@ def fronts_table(found: list[dict[str, Any]], files: list[Path]) -> Any:
 
     from fluid_sim_ros.lab.charts.pareto import judged
 
-    table = Table(
-        'problem', 'rung', 'integrator', 'timestep', 'µs per simulated s', 'error',
-        title='Pareto fronts',
-    )  # fmt: skip
+    tables: list[Any] = []
     for result in found:
+        by = result['judged_by']
+        title = f'{escape(result["problem"])}: Pareto front by {by} error'
+        table = Table('rung', 'integrator', 'timestep', _COST, 'error', title=title)
         front = [point for point in result['points'] if point['pareto']]
         for point in sorted(front, key=lambda p: float(p['cpu_us_per_s'])):
             table.add_row(
-                result['problem'], escape(point['rung']), point['integrator'],
-                f'{point["timestep_s"] * 1e3:g} ms', f'{point["cpu_us_per_s"]:.4g}',
-                f'{judged(point, result["judged_by"]):.3g} {result["judged_by"]}',
+                escape(point['rung']), point['integrator'], _ms(point['timestep_s']),
+                f'{point["cpu_us_per_s"]:.4g}', f'{judged(point, by):.3g}',
             )  # fmt: skip
-    return Group(table, escape('\n'.join(map(str, files))))
+        tables.append(table)
+        if result.get('note'):
+            tables.append(escape(f'Note: {result["note"]}.'))
+    return Group(*tables, unbroken(files), escape('\n'.join(lines)))
+
+
+def _ms(seconds: float) -> str:
+    return f'{seconds * 1e3:.3g} ms'
 
 
 def advice_table(advice: dict[str, Any], asked: str) -> Any:
@@ -67,17 +82,18 @@ def advice_table(advice: dict[str, Any], asked: str) -> Any:
     from rich.table import Table
 
     table = Table(
-        'fluid', 'integrator', 'timestep', 'error', 'µs per simulated s', 'fails at',
+        'fluid', 'integrator', 'timestep', 'error', _COST, 'fails at',
         title=f'{advice["scene"]}: within {advice["tolerance"]:g} ({advice["metric"]}), '
         'cheapest first',
     )  # fmt: skip
     for each in advice['candidates']:
-        fails = f'{each["fails_at_s"] * 1e3:g} ms' if each['fails_at_s'] else ''
+        known, tried = each['fails_at_s'], each['tried_to_s']
+        fails = _ms(known) if known else f'> {_ms(tried)}' if tried > each['timestep'] else ''
         table.add_row(
-            each['rung'], each['integrator'], f'{each["timestep"] * 1e3:g} ms',
+            each['rung'], each['integrator'], _ms(each['timestep']),
             f'{each["error"]:.2g}', f'{each["cpu_us_per_s"]:.4g}', fails,
         )  # fmt: skip
-    return Group(table, escape('\n'.join(_lines(advice, asked))))
+    return Group(table, escape('\n'.join(_lines(advice, asked))), unbroken(advice['written']))
 
 
 def _lines(advice: dict[str, Any], asked: str) -> list[str]:
@@ -99,7 +115,7 @@ def _lines(advice: dict[str, Any], asked: str) -> list[str]:
         f'{baseline["timestep"] * 1e3:g} ms with everything on; '
         f'{bound}{choice["margin"]:.3g} times below the step at which it fails.',
         snippet(advice),
-        *(f'written: {path}' for path in advice['written']),
+        *(['Written:'] if advice['written'] else []),
     ]
 
 

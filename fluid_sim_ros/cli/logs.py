@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.cli import replay as cli_replay
-from fluid_sim_ros.cli.shared import Show, add_command, progress_bar
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_bar
 
 DAMAGED = 1
 
@@ -65,14 +64,14 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
 
     result = info(arguments.log)
     table = Table(
-        Column('topic', overflow='fold'), Column('type', overflow='fold'), 'messages', 'rate',
+        Column('topic', no_wrap=True), Column('type', overflow='fold'), 'messages', 'rate',
         title=f'{result["path"]}: {result["bytes"] / 1e6:.2f} MB, '
         f'{result["begin_s"]:.2f} to {result["end_s"]:.2f} s',
     )  # fmt: skip
     for name, topic in result['topics'].items():
         rate = topic['rate_hz']
         shown = '' if rate is None else f'{rate:g} Hz'
-        table.add_row(name, topic['type'], str(topic['messages']), shown)
+        table.add_row(name, topic['type'].rpartition('/')[2], str(topic['messages']), shown)
     run = result['run']
     lines = [result['run_fault']] if run is None else [
         f'scene {run["scene"]}, seed {run["seed"]}, timestep {run["timestep"]:g} s, '
@@ -107,12 +106,15 @@ def _plot(arguments: argparse.Namespace, show: Show) -> int:
 
     log = open_log(arguments.log)
     tracks = read_tracks(log)
-    folder = _folder(arguments.out, log.path)
-    files = [
-        pictures.overview(track, tracks, folder / f'{log.path.stem}_{_file_name(track.name)}.png')
-        for track in tracks.vehicles
-    ]
-    files.append(write_report(tracks, about(log), folder / f'{log.path.stem}.html'))
+    with made_folder(arguments.out or log.path.parent) as folder:
+        stem = folder / log.path.stem
+        files = [
+            pictures.overview(
+                track, tracks, stem.with_name(f'{stem.name}_{_file_name(track.name)}.png')
+            )
+            for track in tracks.vehicles
+        ]
+        files.append(write_report(tracks, about(log), stem.with_name(f'{stem.name}.html')))
     result = {'log': str(log.path), 'files': [str(file) for file in files], 'faults': log.faults}
     lines = [*(str(file) for file in files), *(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, escape('\n'.join(lines)), result)
@@ -127,8 +129,8 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
 
     log = open_log(arguments.log)
     kind = 'csv' if arguments.csv else 'parquet'
-    folder = _folder(arguments.csv or arguments.parquet, log.path, f'--{kind}')
-    files = export(log, folder, kind)
+    with made_folder(arguments.csv or arguments.parquet, f'--{kind}') as folder:
+        files = export(log, folder, kind)
     result = {'log': str(log.path), 'files': files, 'faults': log.faults}
     lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, escape('\n'.join(lines)), result)
@@ -145,29 +147,18 @@ def _render(arguments: argparse.Namespace, show: Show) -> int:
 
     log = open_log(arguments.log)
     out = arguments.out or log.path.with_suffix('.mp4')
-    _folder(out.parent, log.path)
     width, height = arguments.size
     options = FilmOptions(
         width, height, arguments.fps, arguments.speed, arguments.vehicle, arguments.camera,
         arguments.at,
     )  # fmt: skip
-    with progress_bar('{task.percentage:.0f} %') as progress:
+    with made_folder(out.parent), progress_bar('{task.percentage:.0f} %') as progress:
         task = progress.add_task('rendering', total=1.0)
         count = render(log, out, options, lambda done: progress.update(task, completed=done))
     result = {'log': str(log.path), 'file': str(out), 'pictures': count, 'faults': log.faults}
     lines = [f'{out}: {count} pictures', *(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, escape('\n'.join(lines)), result)
     return DAMAGED if log.faults else 0
-
-
-def _folder(given: Path | None, log: Path, option: str = '--out') -> Path:
-    """Return the folder for what is made of a log, made when it is not there."""
-    folder = given or log.parent
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ConfigError(f'{option} {folder}: {error.strerror}') from None
-    return folder
 
 
 def _file_name(vehicle: str) -> str:

@@ -209,7 +209,7 @@ def _show(json_path: str | None, table: Any, result: object) -> None:
     if json_path is not None:
         write_json(json_path, result)
     if json_path != '-':
-        _console().print(table)
+        _console().print(table, crop=False)  # paths stay whole
 
 
 def _console() -> 'Console':

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fluid_sim_ros.cli.shared import Show
+from fluid_sim_ros.cli.shared import Show, fraction
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -33,8 +33,9 @@ def add_options(replay: argparse.ArgumentParser) -> None:
         help='fly its commands again and compare every state (exit code 1: a difference)',
     )  # fmt: skip
     replay.add_argument(
-        '--tolerance', type=float, default=0.0, metavar='T',
-        help='relative difference allowed with --resimulate (default 0: the same bits)',
+        '--tolerance', type=fraction, default=0.0, metavar='T',
+        help='relative difference allowed with --resimulate, such as 1e-9 or 1%% (default 0: the '
+        'same bits)',
     )  # fmt: skip
     replay.add_argument(
         '--with', action='append', default=[], metavar='KEY=VALUE', dest='changes',

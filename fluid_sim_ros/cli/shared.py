@@ -1,20 +1,28 @@
 """What the subcommands of ``fluid_sim`` share."""
 
 import argparse
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import math
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.errors import needed_for
+from fluid_sim_ros.errors import ConfigError, needed_for
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import Progress, ProgressColumn
+    from rich.text import Text
 
     from fluid_sim_ros.lab.progress import Report
 
 #: Shows a table, or writes a result as JSON: (path or None, table, result).
 Show = Callable[[str | None, Any, object], None]
+
+#: Outside of a terminal a long part tells how far it is so often [s].
+_TELL_EVERY = 10.0
 
 JSON_HELP = 'also write the result as JSON; - is standard output'
 
@@ -101,18 +109,120 @@ def progress_of_parts() -> Iterator['Report']:
     """
     Give a function that shows how far a measurement is, on standard error.
 
+    A bar that lives in a terminal; elsewhere a line for each part as it begins, and for a long
+    one now and then.
+
     Returns
     -------
     context manager
         Gives a function that takes what is done, how many, and of how many.
 
     """
-    with progress_bar('{task.completed}/{task.total}') as bar:
+    from rich.progress import TimeElapsedColumn
+
+    with progress_bar('{task.completed}/{task.total}', TimeElapsedColumn()) as bar:
         tasks: dict[str, Any] = {}
+        told: dict[str, float] = {}
 
         def report(what: str, done: int, total: int) -> None:
             if what not in tasks:
                 tasks[what] = bar.add_task(what, total=total)
             bar.update(tasks[what], completed=done, visible=done < total)
+            now = time.monotonic()
+            if bar.disable and done < total and now - told.get(what, -math.inf) > _TELL_EVERY:
+                told[what] = now
+                sys.stderr.write(f'{what}: {done} of {total}\n')
 
         yield report
+
+
+def unbroken(lines: 'Iterable[str | Path]') -> 'Text':
+    """
+    Return lines that are not wrapped: paths that are to be copied.
+
+    Parameters
+    ----------
+    lines
+        One line each.
+
+    Returns
+    -------
+    Text
+        For rich.
+
+    """
+    from rich.text import Text
+
+    return Text('\n'.join(map(str, lines)), no_wrap=True, overflow='ignore')
+
+
+def fraction(text: str) -> float:
+    """
+    Read a share: ``0.01`` or ``1%``.
+
+    Parameters
+    ----------
+    text
+        As it was typed.
+
+    Returns
+    -------
+    float
+        [-].
+
+    Raises
+    ------
+    ArgumentTypeError
+        If it is neither.
+
+    """
+    number, percent, rest = text.strip().partition('%')
+    try:
+        value = float(number)
+    except ValueError:
+        value = math.nan
+    if rest or not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"'{text}': must be a share, such as 0.01 or 1%")
+    return value / 100 if percent else value
+
+
+@contextmanager
+def made_folder(folder: Path, option: str = '--out') -> Iterator[Path]:
+    """
+    Give a folder for results; one that stays empty is taken away again.
+
+    Parameters
+    ----------
+    folder
+        Made, with all above it, where it is not there.
+    option
+        That named it, for an error.
+
+    Returns
+    -------
+    context manager
+        Gives the folder.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot be made.
+
+    """
+    new = [each for each in (folder, *folder.parents) if not each.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        _take_away(new)
+        raise ConfigError(f'{option} {folder}: {error.strerror}') from None
+    try:
+        yield folder
+    finally:
+        _take_away(new)
+
+
+def _take_away(folders: Sequence[Path]) -> None:
+    """Remove those folders that are empty, innermost first."""
+    for folder in folders:
+        with suppress(OSError):  # it holds something, or was never made
+            folder.rmdir()

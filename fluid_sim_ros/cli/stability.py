@@ -5,8 +5,14 @@ import math
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.cli.shared import Show, add_command, progress_of_parts
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.cli.shared import (
+    Show,
+    add_command,
+    made_folder,
+    progress_of_parts,
+    unbroken,
+)
+from fluid_sim_ros.errors import ConfigError, listed
 
 
 def add_parser(commands: Any, show: Show) -> None:
@@ -24,7 +30,10 @@ def add_parser(commands: Any, show: Show) -> None:
     text = 'map where integration is stable'
     stability = add_command(commands, 'stability', text, _stability, show)
     stability.add_argument(
-        'problem', metavar='PROBLEM', nargs='?', help='none: list problems and axes'
+        'problem',
+        metavar='PROBLEM',
+        nargs='?',
+        help='problem, or scene (name or file); none: list problems and axes',
     )
     for axis in ('x', 'y'):
         stability.add_argument(f'--{axis}', metavar='AXIS', default='', help='default: its own')
@@ -46,11 +55,11 @@ def add_parser(commands: Any, show: Show) -> None:
 
 def _stability(arguments: argparse.Namespace, show: Show) -> int:
     from rich.console import Group
-    from rich.markup import escape
     from rich.table import Table
 
     from fluid_sim_ros.lab import results
     from fluid_sim_ros.lab.drawing.stability_chart import draw_map
+    from fluid_sim_ros.lab.problems.bodies import FAMILIES
     from fluid_sim_ros.lab.problems.problem import INTEGRATORS
     from fluid_sim_ros.lab.stability.limits import largest_steps
     from fluid_sim_ros.lab.stability.outcomes import OUTCOMES
@@ -58,26 +67,81 @@ def _stability(arguments: argparse.Namespace, show: Show) -> int:
 
     if not arguments.problem:
         return _list_stability(arguments, show)
+    if arguments.problem not in FAMILIES:
+        return _scene(arguments, show)
     head = plan(
         arguments.problem, x=arguments.x, y=arguments.y, x_range=arguments.x_range,
         y_range=arguments.y_range, cells=arguments.cells,
         integrators=arguments.integrators or INTEGRATORS, fixed=_settings(arguments.fixed),
     )  # fmt: skip
     stem = arguments.out / f'{head["problem"]}_{head["x"]}_{head["y"]}'
-    with progress_of_parts() as report:
+    with made_folder(arguments.out), progress_of_parts() as report:
         result = run_map(
             head, stem.with_suffix('.jsonl'), restart=arguments.restart, report=report
         )
         if arguments.bisect:
             result['largest_steps'] = largest_steps(head, report)
-    result['files'] = [str(stem.with_suffix(suffix)) for suffix in ('.jsonl', '.json', '.png')]
-    draw_map(result, stem.with_suffix('.png'))
-    results.save(result, stem.with_suffix('.json'))
-    table = Table('integrator', *OUTCOMES, title=f'{head["problem"]}: cells by outcome')
+        suffixes = ('.jsonl', '.json', '.png')
+        result['files'] = [str(stem.with_suffix(suffix)) for suffix in suffixes]
+        draw_map(result, stem.with_suffix('.png'))
+        results.save(result, stem.with_suffix('.json'))
+    found = [word for word in OUTCOMES if any(row['outcome'] == word for row in result['map'])]
+    table = Table('integrator', *found, title=f'{head["problem"]}: cells by outcome')
     for integrator in head['integrators']:
         words = [row['outcome'] for row in result['map'] if row['integrator'] == integrator]
-        table.add_row(integrator, *(str(words.count(word)) for word in OUTCOMES))
-    show(arguments.json, Group(table, escape('\n'.join(result['files']))), result)
+        table.add_row(integrator, *(str(words.count(word)) for word in found))
+    show(arguments.json, Group(table, unbroken(result['files'])), result)
+    return 0
+
+
+def _scene(arguments: argparse.Namespace, show: Show) -> int:
+    """Find where the integration of a scene's own manoeuvre fails."""
+    from rich.console import Group
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fluid_sim_ros.lab import results
+    from fluid_sim_ros.lab.advisor.reference import OUTCOMES
+    from fluid_sim_ros.lab.drawing.scene_limits_chart import draw_limits, limit_words
+    from fluid_sim_ros.lab.problems.bodies import FAMILIES
+    from fluid_sim_ros.lab.problems.catalogue import is_scene
+    from fluid_sim_ros.lab.problems.from_scene import of_scene
+    from fluid_sim_ros.lab.problems.problem import INTEGRATORS
+    from fluid_sim_ros.lab.stability.scene_limits import scene_limits
+    from fluid_sim_ros.scene import scene_names
+
+    name = arguments.problem
+    if not is_scene(name):
+        raise ConfigError(
+            f"'{name}' is no stability problem and no scene; problems: {listed(FAMILIES)}; "
+            f'scenes: {listed(scene_names())}, or a file'
+        )
+    if arguments.y or arguments.y_range or arguments.fixed or arguments.x not in ('', 'timestep'):
+        raise ConfigError(
+            f"'{name}' is a scene: its one axis is the timestep (--x-range LOW HIGH); --y, "
+            '--y-range and --set are for the problems'
+        )
+    with made_folder(arguments.out) as folder, progress_of_parts() as report:
+        result = scene_limits(
+            of_scene(name), timesteps=arguments.x_range, cells=arguments.cells,
+            integrators=arguments.integrators or INTEGRATORS, report=report,
+        )  # fmt: skip
+        stem = folder / f'{result["problem"]}_timestep'
+        files = [draw_limits(result, stem.with_suffix('.png')), stem.with_suffix('.json')]
+        result['files'] = [str(file) for file in files]
+        results.save(result, stem.with_suffix('.json'))
+    found = [word for word in OUTCOMES if any(row['outcome'] == word for row in result['map'])]
+    title = f'{result["problem"]}: timesteps by outcome'
+    table = Table('integrator', *found, 'lasts', title=title)
+    for row in result['largest_steps']:
+        cells = [cell for cell in result['map'] if cell['integrator'] == row['integrator']]
+        words = [cell['outcome'] for cell in cells]
+        table.add_row(
+            row['integrator'], *(str(words.count(word)) for word in found),
+            limit_words(row['largest_s'], cells),
+        )  # fmt: skip
+    note = [escape(f'Note: {result["note"]}.')] if result['note'] else []
+    show(arguments.json, Group(table, *note, unbroken(result['files'])), result)
     return 0
 
 

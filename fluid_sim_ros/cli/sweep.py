@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.cli.shared import Show, add_command, progress_bar
+from fluid_sim_ros.cli.shared import Show, add_command, progress_bar, unbroken
 
 FAILED = 1
 
@@ -65,23 +65,24 @@ def _sweep(arguments: argparse.Namespace, show: Show) -> int:
 
 
 def _table(result: dict[str, Any]) -> Any:
+    from rich.console import Group
     from rich.markup import escape
     from rich.table import Table
 
-    caption = f'every row: {result["table"]}'
+    lines = []
     check = result.get('against_cpu')
     if check is not None:
         share = check['largest_relative']
-        caption += f'\n{result["device"]}; {check["runs"]} runs flown again on the processor: ' + (
-            'all at rest' if share is None else f'at most {share:.2g} of a value apart'
+        lines.append(
+            f'{result["device"]}; {check["runs"]} runs flown again on the processor: '
+            + ('all at rest' if share is None else f'at most {share:.2g} of a value apart')
         )
     ends = ', '.join(f'{count} {status}' for status, count in result['status'].items())
     table = Table(
         'column', 'min', 'median', 'max',
         title=f'{escape(result["scene"])}: {result["runs"]} runs ({ends}) in '
         f'{result["wall_s"]:.1f} s',
-        caption=escape(caption),
     )  # fmt: skip
     for name, numbers in result['columns'].items():
         table.add_row(name, *(f'{numbers[key]:.5g}' for key in ('min', 'median', 'max')))
-    return table
+    return Group(table, *map(escape, lines), 'Every row:', unbroken([result['table']]))

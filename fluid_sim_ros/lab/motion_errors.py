@@ -13,6 +13,12 @@ from fluid_sim_ros.physics.arrays import Array
 NUDGE = 1e-9
 #: A motion is chaotic for us when its nudge grows by e within a fifth of the run.
 LYAPUNOV_SHARE = 0.2
+#: What moves so many times as fast as it should is unstable.
+FASTER = 2.0
+#: A body's own largest speed counts as at least this share of the largest of all bodies ...
+_SHARE = 0.1
+#: ... and as at least so much [m/s], [rad/s].
+_LEAST_SPEED, _LEAST_RATE = 1e-3, 1e-2
 #: No regular motion makes so much of a nudge, however soon it did.
 SURE_GROWTH = 1e6
 
@@ -148,6 +154,33 @@ def errors(problem: Problem, trajectory: Trajectory, reference: Array) -> dict[s
         found |= {f'{name}_drift': drift(values) for name, values in kept.items()}
     ends = {name: float(series[-1]) for name, series in found.items()}
     return ends | {f'{name}_max': float(series.max()) for name, series in found.items()}
+
+
+def runs_away(states: Array, reference: Array) -> bool:
+    """
+    Return whether a motion is unstable: some body moves or turns far faster than it should.
+
+    An error alone does not tell: that of a tumbling card grows to the size of the motion at a
+    timestep at which nothing blows up.
+
+    Parameters
+    ----------
+    states, reference
+        Two motions, shape (n, bodies, 13).
+
+    Returns
+    -------
+    bool
+        Whether a largest speed is above FASTER times that of the reference.
+
+    """
+    for part, least in ((VELOCITY, _LEAST_SPEED), (OMEGA, _LEAST_RATE)):
+        found, wanted = (
+            np.linalg.norm(each[..., part], axis=-1).max(axis=0) for each in (states, reference)
+        )
+        if np.any(found > FASTER * np.maximum(wanted, max(_SHARE * wanted.max(), least))):
+            return True
+    return False
 
 
 class Regime(NamedTuple):

@@ -2,10 +2,10 @@
 Runs of a scene at any timestep, also at one that does not divide its events and samples.
 
 For the search of a limit: between two timesteps that fit a scene there may be a factor of 2.5.
-Events, gaits and compared states keep their times to the next step boundary.
+Events take place at their times, by a shorter step before them; states are compared at theirs, by
+a shorter step on the side; the angles of a gait change at the next step boundary.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
@@ -19,6 +19,8 @@ from fluid_sim_ros.simulation import Simulation
 
 #: Timesteps that a scene is compiled with, largest first [s]; a run's own is at most as large.
 _COMPILED = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5)
+#: Share of a step within which two times are the same [-].
+_SAME = 1e-9
 
 
 def largest_timestep(problem: Problem, rung: Rung) -> float:
@@ -66,22 +68,34 @@ def run_retimed(
     Returns
     -------
     Trajectory
-        The run, its states at the step boundaries next to the problem's times.
+        The run, its states at the problem's times.
 
     """
     simulation = _without_gait(rung).simulation(integrator, compiled)
-    simulation.set_timestep(Fraction(timestep).limit_denominator(10**12))
+    step = Fraction(timestep).limit_denominator(10**12)
+    simulation.set_timestep(step)
     watch, states = BodyWatch(simulation), []
-    waves = _waves(rung, simulation, problem.duration)
-    due = next(waves, None)
+    stops: list[tuple[float, str, list[float]]] = [
+        (event.at, '', []) for event in rung.scene.schedule if event.at < problem.duration
+    ]
+    stops += _waves(rung, problem.duration)
+    waiting = iter(sorted(stops, key=lambda stop: stop[0]))
+    due = next(waiting, None)
     try:
         for time in problem.times:
             while due is not None and due[0] <= time:
-                simulation.step(_steps(simulation, due[0], timestep))
-                simulation.set_joints(due[1], due[2])
-                due = next(waves, None)
-            simulation.step(_steps(simulation, time, timestep))
+                at, vehicle, angles = due
+                _go_on(simulation, at, step)
+                if vehicle:
+                    simulation.set_joints(vehicle, angles)
+                else:
+                    _land(simulation, at, step)
+                due = next(waiting, None)
+            _go_on(simulation, time, step)
+            here = simulation.save_state()
+            _land(simulation, time, step)
             states.append(watch.states())
+            simulation.load_state(here)
     except DivergedError as error:
         return Trajectory(np.array(states), str(error), error.time)
     return Trajectory(np.array(states))
@@ -91,14 +105,22 @@ def _without_gait(rung: Rung) -> Rung:
     return rung._replace(scene=replace(rung.scene, gait={}))
 
 
-def _steps(simulation: Simulation, time: float, timestep: float) -> int:
-    return max(0, round(time / timestep) - simulation.step_count)
+def _go_on(simulation: Simulation, time: float, step: Fraction) -> None:
+    """Take whole steps up to a time, or to less than one before it."""
+    simulation.step(max(0, int((time - simulation.time) / step + _SAME)))
 
 
-def _waves(
-    rung: Rung, simulation: Simulation, duration: float
-) -> Iterator[tuple[float, str, list[float]]]:
-    """Yield time [s], vehicle and joint angles [rad] of the scene's gaits, in order of time."""
+def _land(simulation: Simulation, time: float, step: Fraction) -> None:
+    """Take one shorter step to a time, if it is not reached."""
+    rest = time - simulation.time
+    if rest > _SAME * step:
+        simulation.set_timestep(Fraction(rest).limit_denominator(10**15))
+        simulation.step()
+        simulation.set_timestep(step)
+
+
+def _waves(rung: Rung, duration: float) -> list[tuple[float, str, list[float]]]:
+    """Return time [s], vehicle and joint angles [rad] of the scene's gaits."""
     moves = []
     for name, gait in rung.scene.gait.items():
         wave = JointWave(
@@ -107,4 +129,4 @@ def _waves(
         )  # fmt: skip
         count = int(duration * gait.rate) + 1
         moves += [(k / gait.rate, name, wave.angles(k / gait.rate)) for k in range(count)]
-    yield from sorted(moves, key=lambda move: move[0])
+    return moves

@@ -40,7 +40,7 @@ def export(log: Log, folder: Path, kind: str) -> list[str]:
             continue
         table: dict[str, NDArray[Any]] = {
             'step': np.array([m.step for m in messages]),
-            'log_time_s': np.array([m.log_ns for m in messages]) * 1e-9,
+            'log_time_s': np.array([m.log_ns for m in messages]) / 1e9,
             'publish_time_ns': np.array([m.publish_ns for m in messages]),
             **columns(topic.definition, [m.data for m in messages]),
         }

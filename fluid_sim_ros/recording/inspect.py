@@ -90,8 +90,8 @@ def info(path: str | Path) -> dict[str, Any]:
         'faults': log.faults,
         'written_by': log.library,
         'messages': total.messages,
-        'begin_s': total.first_ns * 1e-9,
-        'end_s': total.last_ns * 1e-9,
+        'begin_s': total.first_ns / 1e9,
+        'end_s': total.last_ns / 1e9,
         'topics': {
             topic.name: {
                 'type': topic.type,
@@ -144,7 +144,7 @@ def about(log: Log) -> list[tuple[str, str]]:
 
 
 def _rate(entry: Count) -> float | None:
-    seconds = (entry.last_ns - entry.first_ns) * 1e-9
+    seconds = (entry.last_ns - entry.first_ns) / 1e9
     return round((entry.messages - 1) / seconds, 3) if seconds > 0 else None
 
 

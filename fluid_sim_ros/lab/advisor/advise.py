@@ -75,7 +75,10 @@ def advise(
 
     """
     _check(tolerance, metric_name, rate, budget)
-    problem = judged(scene_problem(scene, duration, rate))
+    problem = scene_problem(scene, duration, rate)
+    report(f'{problem.name}: manoeuvre', 0, 1)
+    problem = judged(problem)
+    report(f'{problem.name}: manoeuvre', 1, 1)
     budgeted = BudgetedRuns(problem, budget)
     first = first_timestep(problem)
     reference = find_reference(budgeted, first, tolerance, metric_name, report)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
-from fluid_sim_ros.lab.advisor.reference import Reference
+from fluid_sim_ros.lab.advisor.reference import Reference, outcome_of
 from fluid_sim_ros.lab.advisor.search import Candidate
 from fluid_sim_ros.lab.retimed import largest_timestep, run_retimed
 from fluid_sim_ros.lab.stability.limits import bisect
@@ -17,7 +17,7 @@ def with_limit(budgeted: BudgetedRuns, reference: Reference, candidate: Candidat
     """
     Return a candidate with the timestep from which on it fails.
 
-    A run fails when the watchdog ends it, or its error is as large as the motion.
+    A run fails when it is not ``stable``, see ``reference.OUTCOMES``.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def with_limit(budgeted: BudgetedRuns, reference: Reference, candidate: Candidat
         if not budgeted.left:
             raise _NoTimeError
         run = run_retimed(problem, rung, setting.integrator, timestep, most)
-        good = reference.error(run) < 1
+        good = outcome_of(reference, run) == 'stable'
         tried_to = max(tried_to, timestep) if good else tried_to
         return good
 

@@ -7,10 +7,15 @@ from typing import Any
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
 from fluid_sim_ros.lab.metrics import Metric, metric
-from fluid_sim_ros.lab.motion_errors import Sensitivity, sensitivity
+from fluid_sim_ros.lab.motion_errors import Sensitivity, runs_away, sensitivity
 from fluid_sim_ros.lab.problems.problem import Problem, Setting, Trajectory
 from fluid_sim_ros.lab.progress import Report
 
+#: What can become of a run, in the order of gravity. ``wrong``: its error is half as large as the
+#: motion, or larger; ``blow-up``: a body moves or turns far faster than it should; ``lost``: the
+#: watchdog ended it.
+OUTCOMES = ('stable', 'wrong', 'blow-up', 'lost')
+WRONG = 0.5
 #: RK4 converges fastest; where it fails (stiff drag), a method that stays bounded.
 _INTEGRATORS = ('RK4', 'implicitfast')
 _HALVINGS = 6
@@ -76,6 +81,30 @@ class Reference:
             if trajectory.fault
             else self.metric(trajectory.states, self.trajectory.states)
         )
+
+
+def outcome_of(reference: Reference, trajectory: Trajectory) -> str:
+    """
+    Return what becomes of a run, as one of OUTCOMES.
+
+    Parameters
+    ----------
+    reference
+        What it is compared with.
+    trajectory
+        The run.
+
+    Returns
+    -------
+    str
+        The gravest word that fits.
+
+    """
+    if trajectory.fault:
+        return 'lost'
+    if runs_away(trajectory.states, reference.trajectory.states):
+        return 'blow-up'
+    return 'wrong' if reference.error(trajectory) >= WRONG else 'stable'
 
 
 def find_reference(

@@ -251,13 +251,14 @@ def _settings(problem: Problem, integrators: Sequence[str]) -> list[Setting]:
 
 
 def _point(setting: Setting, trajectory: Trajectory) -> dict[str, Any]:
+    at = trajectory.failed_at
     return {
         'rung': setting.rung,
         'integrator': setting.integrator,
         'timestep_s': setting.timestep,
         'status': 'failed' if trajectory.fault else 'ok',
         'fault': trajectory.fault,
-        'failed_at_s': trajectory.failed_at,
+        'failed_at_s': None if at is None else float(f'{at:.12g}'),
     }
 
 

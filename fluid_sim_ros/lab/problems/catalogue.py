@@ -1,6 +1,7 @@
 """The problems by name."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.lab.problems import closed_forms, plates, scene_problems, solved_bodies
@@ -19,6 +20,24 @@ PROBLEMS: dict[str, Callable[[], Problem]] = {
         scene_problems.swimmer, scene_problems.quad_in_turbulence,
     )
 }  # fmt: skip
+
+
+def is_scene(name: str) -> bool:
+    """
+    Return whether a name is that of a scene, or could be the path of one.
+
+    Parameters
+    ----------
+    name
+        As the user gave it.
+
+    Returns
+    -------
+    bool
+        False for a name that is neither.
+
+    """
+    return name in scene_names() or '.' in name or '/' in name or Path(name).is_file()
 
 
 def problem(name: str) -> Problem:
@@ -43,7 +62,7 @@ def problem(name: str) -> Problem:
     """
     if name in PROBLEMS:
         return PROBLEMS[name]()
-    if name not in scene_names() and '.' not in name and '/' not in name:
+    if not is_scene(name):
         raise ConfigError(
             f"problem '{name}' is not known{did_you_mean(name, [*PROBLEMS, *scene_names()])} "
             f'problems: {listed(PROBLEMS)}; '

@@ -1,5 +1,6 @@
 """Pictures of a log: one PNG per vehicle."""
 
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,13 @@ _STYLE: Any = {
 _COLORS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#000000', '#999999')
 _AXES = ('east x', 'north y', 'up z')
 _EULER = ('roll', 'pitch', 'yaw')
+#: No axis is shorter than this: what is smaller is no motion and no force, but rounding.
+LEAST_SPANS = {
+    'position [m]': 1e-3, 'attitude [deg]': 0.1, 'velocity [m/s]': 1e-3,
+    'angular velocity [rad/s]': 1e-3, 'force [N]': 1e-6, 'torque [N m]': 1e-8,
+}  # fmt: skip
+#: Characters of a line, above the picture and in its legend.
+_TITLE_WIDTH, _LEGEND_WIDTH = 110, 24
 #: A term below this share of the largest is left out of the picture.
 _NOTABLE = 1e-6
 
@@ -52,13 +60,19 @@ def overview(track: Track, tracks: Tracks, path: Path) -> Path:
         _path(figure.add_subplot(grid[0, 0], projection='3d'), [track])
         position = figure.add_subplot(grid[0, 1])
         _lines(position, track.times, track.position_w, _AXES, 'position [m]')
+        least_span(position, 'position [m]')
         attitude = figure.add_subplot(grid[0, 2])
         _lines(attitude, track.times, np.degrees(track.euler), _EULER, 'attitude [deg]')
-        _terms(figure.add_subplot(grid[1, 0]), track, slice(1, 4), 'fluid force by term [N]')
-        _terms(figure.add_subplot(grid[1, 1]), track, slice(4, 7), 'fluid torque by term [N m]')
+        least_span(attitude, 'attitude [deg]')
+        force, torque = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
+        _terms(force, track, slice(1, 4), 'fluid force by term [N]')
+        least_span(force, 'force [N]')
+        _terms(torque, track, slice(4, 7), 'fluid torque by term [N m]')
+        least_span(torque, 'torque [N m]')
         velocity = figure.add_subplot(grid[1, 2])
         names = ('forward x', 'left y', 'up z')
         _lines(velocity, track.times, track.velocity_b, names, 'velocity, body axes [m/s]')
+        least_span(velocity, 'velocity [m/s]')
         _commands(figure.add_subplot(grid[2, :2]), track)
         _speed(figure.add_subplot(grid[2, 2]), tracks.real_time_factor)
         for axes in figure.axes[1:]:
@@ -88,23 +102,51 @@ def both_flights(recorded: Track, changed: Track, change: str, path: Path) -> Pa
     """
     with mpl.rc_context(_STYLE):
         figure = plt.figure(figsize=(12, 7), layout='constrained')
-        grid: Any = figure.add_gridspec(3, 3)
+        grid: Any = figure.add_gridspec(3, 3, width_ratios=(1.25, 1, 1))
         _path(figure.add_subplot(grid[:, 0], projection='3d'), [recorded, changed])
         groups = (
             ('position [m]', _AXES, recorded.position_w, changed.position_w),
-            ('attitude [deg]', _EULER, np.degrees(recorded.euler), np.degrees(changed.euler)),
+            ('attitude [deg]', _EULER, np.degrees(recorded.euler), _beside(recorded, changed)),
         )
+        label = textwrap.fill(change, _LEGEND_WIDTH)
         for column, (title, names, old, new) in enumerate(groups, 1):
             for row, name in enumerate(names):
                 axes = figure.add_subplot(grid[row, column])
                 axes.plot(recorded.times, old[:, row], color=_COLORS[0], label='recorded')
-                axes.plot(changed.times, new[:, row], color=_COLORS[1], ls='--', label=change)
+                axes.plot(changed.times, new[:, row], color=_COLORS[1], ls='--', label=label)
                 axes.set_title(f'{name}, {title}')
+                least_span(axes, title)
         figure.axes[1].legend()
         for axes in figure.axes[1:]:
             axes.set_xlabel('simulated time [s]')
-        figure.suptitle(f'{recorded.name}: as recorded, and with {change}', fontweight='bold')
+        title = f'{recorded.name}: as recorded, and with {change}'
+        figure.suptitle(textwrap.fill(title, _TITLE_WIDTH), fontweight='bold')
         return _save(figure, path)
+
+
+def least_span(axes: Axes, quantity: str) -> None:
+    """
+    Widen a vertical axis that would show rounding errors in full size.
+
+    Parameters
+    ----------
+    axes
+        Whose curves are drawn.
+    quantity
+        One of LEAST_SPANS.
+
+    """
+    low, high = axes.get_ylim()
+    if high - low < LEAST_SPANS[quantity]:
+        middle, half = (low + high) / 2, LEAST_SPANS[quantity] / 2
+        axes.set_ylim(middle - half, middle + half)
+
+
+def _beside(recorded: Track, changed: Track) -> Array:
+    """Return the changed flight's angles [deg], by whole turns nearest to the recorded ones."""
+    old, new = np.degrees(recorded.euler[:1]), np.degrees(changed.euler)
+    turns = np.round((new[:1] - old) / 360.0)
+    return np.asarray(new - 360.0 * np.where(np.isfinite(turns), turns, 0.0))
 
 
 def _save(figure: Figure, path: Path) -> Path:
@@ -157,7 +199,7 @@ def _terms(axes: Axes, track: Track, part: slice, title: str) -> None:
     if shown:
         axes.legend(ncols=2, fontsize=8)
     else:
-        axes.text(0.5, 0.5, 'none recorded', ha='center', transform=axes.transAxes)
+        axes.text(0.5, 0.5, 'none', ha='center', transform=axes.transAxes)
 
 
 def _commands(axes: Axes, track: Track) -> None:

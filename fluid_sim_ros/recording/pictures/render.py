@@ -256,7 +256,7 @@ def _joint_states(log: Log, track: Track) -> dict[str, tuple[Array, Array]]:
     if not messages:
         return {}
     table = columns(topic.definition, [m.data for m in messages])
-    times = np.array([m.log_ns for m in messages]) * 1e-9
+    times = np.array([m.log_ns for m in messages]) / 1e9
     found = {}
     for i in range(sum(name.startswith('name[') for name in table)):
         joint = str(table[f'name[{i}]'][0])

@@ -8,6 +8,7 @@ import numpy as np
 
 from fluid_sim_ros.output.html_page import write_page
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.recording.pictures.plots import LEAST_SPANS
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
 
 _TEMPLATE = Path(__file__).with_name('report.html')
@@ -60,6 +61,9 @@ def _plots(track: Track, tracks: Tracks) -> list[dict[str, Any]]:
         _group('velocity, body axes [m/s]', track.times, track.velocity_b, along),
         _group('angular velocity, body axes [rad/s]', track.times, track.omega_b, along),
     ]
+    spans = ('position [m]', 'attitude [deg]', 'velocity [m/s]', 'angular velocity [rad/s]')
+    for plot, quantity in zip(found[2:], spans, strict=True):
+        plot['least'] = LEAST_SPANS[quantity]
     for title, part in (('force [N]', slice(1, 4)), ('torque [N m]', slice(4, 7))):
         series = [
             _series(term, rows[:, 0], np.linalg.norm(rows[:, part], axis=1), i)
@@ -68,7 +72,7 @@ def _plots(track: Track, tracks: Tracks) -> list[dict[str, Any]]:
         ]
         for entry in series:  # thrust would dwarf the fluid; a click shows it
             entry['off'] = entry['name'] == 'thrust'
-        found.append(_plot(f'size of each {title}', series))
+        found.append(_plot(f'size of each {title}', series) | {'least': LEAST_SPANS[title]})
     commands = [
         _series(f'{name} {i}', rows[:, 0], rows[:, i], number, step=True)
         for name, rows in track.commands.items()
@@ -89,7 +93,7 @@ def _group(title: str, times: Array, values: Array, names: Sequence[str]) -> dic
 def _plot(
     title: str, series: list[dict[str, Any]], xlabel: str = _TIME, path: bool = False
 ) -> dict[str, Any]:
-    return {'title': title, 'series': series, 'xlabel': xlabel, 'path': path}
+    return {'title': title, 'series': series, 'xlabel': xlabel, 'path': path, 'least': 0.0}
 
 
 def _series(name: str, x: Array, y: Array, color: int = 0, step: bool = False) -> dict[str, Any]:

@@ -136,11 +136,11 @@ def read_tracks(log: Log) -> Tracks:
         if topic.type != _ODOMETRY or not data[topic.name]:
             continue
         name = topic.name.strip('/').rpartition('/')[0]
-        seconds = np.array(times[topic.name]) * 1e-9
+        seconds = np.array(times[topic.name]) / 1e9
         track = track_of(name, seconds, topic.definition, data[topic.name])
         _add_rest(track, log, times, data)
         vehicles.append(track)
-        factor = _factor(seconds, np.array(walls[topic.name]) * 1e-9)
+        factor = _factor(seconds, np.array(walls[topic.name]) / 1e9)
     if not vehicles:
         raise LogError(f'{log.path}: no odometry in it, nothing to draw')
     return Tracks(vehicles, factor)
@@ -154,7 +154,7 @@ def _add_rest(
         head, _, tail = topic.name.strip('/').partition(f'{track.name}/')
         if head or not data[topic.name]:
             continue
-        seconds = np.array(times[topic.name]) * 1e-9
+        seconds = np.array(times[topic.name]) / 1e9
         table = columns(topic.definition, data[topic.name])
         numbers = [
             name for name, values in table.items()

@@ -55,7 +55,7 @@ def compare(
         size = _size(old, new)
         largest = max(largest, size)
         if first is None and size > tolerance:
-            time = message.log_ns * 1e-9
+            time = message.log_ns / 1e9
             first = Difference(message.topic, time, message.step, name, old, new)
     return largest, first
 

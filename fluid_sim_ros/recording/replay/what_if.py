@@ -46,7 +46,7 @@ def compare_flights(log: Log, changes: Sequence[str], out: Path) -> dict[str, An
     differences, files = {}, []
     for number, (topic, pairs) in enumerate(outcome.pairs.items()):
         name, definition = topic.strip('/').removesuffix(_ODOMETRY), log.topic(topic).definition
-        times = np.array([time_ns for time_ns, _, _ in pairs]) * 1e-9
+        times = np.array([time_ns for time_ns, _, _ in pairs]) / 1e9
         recorded = track_of(name, times, definition, [old for _, old, _ in pairs])
         changed = track_of(name, times, definition, [new for _, _, new in pairs])
         path = out.with_stem(f'{out.stem}_{number}') if number else out
