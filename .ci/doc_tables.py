@@ -10,11 +10,13 @@ import json
 import re
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import bench_page  # a script beside this one
 
+from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.ros.parameters import simulator as parameters
 from fluid_sim_ros.scene import Scene, scene_names
 from test.packaging.layers import LEAVES, ORDER
@@ -60,6 +62,19 @@ def _table_of(name: str) -> str:
     return bench_page.table_of(name, json.loads(path.read_text(encoding='utf-8')))
 
 
+def autopilot_parameters(protocol: str) -> str:
+    """Return the table of the parameters that the mappings of a protocol carry."""
+    rows = []
+    for path in sorted((ROOT / 'config' / 'autopilots').glob(f'{protocol}_*.yaml')):
+        file, _ = load_mapping(protocol, '', str(path))
+        vehicle, reason = path.stem.removeprefix(f'{protocol}_'), ''
+        for name, entry in file.parameters.items():
+            reason = reason if entry.reason == 'as above' else entry.reason
+            rows.append(f'| {vehicle} | `{name}` | {entry.value:g} | {reason} |')
+            vehicle = ''
+    return '\n'.join(['| Vehicle | Parameter | Value | Why |', '|---|---|---|---|', *rows])
+
+
 def rooms() -> str:
     """Return the package's tree in the order of imports, with what each room says of itself."""
     lines = []
@@ -89,6 +104,11 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'advice': ('doc/lab.md', advice),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
+    'px4 parameters': ('doc/autopilot_px4.md', partial(autopilot_parameters, 'px4')),
+    'ardupilot parameters': (
+        'doc/autopilot_ardupilot.md',
+        partial(autopilot_parameters, 'ardupilot'),
+    ),
 }
 
 

@@ -34,6 +34,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         '--exec', metavar='COMMAND', dest='program',
         help='start its program too, with the arguments that it needs besides',
     )  # fmt: skip
+    group.add_argument(
+        '--param', metavar='NAME=VALUE', dest='parameters', action='append', default=[],
+        help="set it in that program, also in place of the mapping's; may be repeated",
+    )  # fmt: skip
     group.add_argument('--vehicle', metavar='NAME', help='that it flies (default the only one)')
     group.add_argument(
         '--mapping', metavar='NAME', help='of config/autopilots, or a file (default by vehicle)'
@@ -88,6 +92,8 @@ def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
     chosen = {
         name: getattr(arguments, name) for name in _OPTIONS if getattr(arguments, name) is not None
     }
+    if arguments.parameters and not arguments.program:
+        raise ConfigError('--param needs --exec: only a program that is started gets parameters')
     if not chosen.get('timeout', 1.0) > 0:
         raise ConfigError(f'--timeout {chosen["timeout"]:g}: must be above 0')
     if arguments.autopilot is None:
@@ -98,8 +104,10 @@ def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
     # heavy: only when it is needed
     from fluid_sim_ros.cli.flight import AutopilotRun
     from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
+    from fluid_sim_ros.mavlink.program.parameters import parse_parameters
 
-    return AutopilotRun(AutopilotOptions(arguments.autopilot, **chosen), arguments.program or '')
+    options = AutopilotOptions(arguments.autopilot, program=bool(arguments.program), **chosen)
+    return AutopilotRun(options, arguments.program or '', parse_parameters(arguments.parameters))
 
 
 def autopilot_table(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':

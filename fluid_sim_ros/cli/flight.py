@@ -1,9 +1,9 @@
 """A run without ROS that an autopilot flies: bridge, program, reports, log."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.errors import AutopilotError
@@ -30,10 +30,23 @@ _COUNTS = ('missed', 'late', 'repeated', 'malformed', 'restarts')
 
 @dataclass(frozen=True)
 class AutopilotRun:
-    """Which autopilot flies, and the command that starts its program (empty: the user does)."""
+    """
+    Which autopilot flies.
+
+    Attributes
+    ----------
+    options
+        What its bridge needs to know.
+    program
+        Command that starts its program; empty: the user does.
+    parameters
+        Of the autopilot, value by name, in place of those of the mapping.
+
+    """
 
     options: AutopilotOptions
     program: str = ''
+    parameters: Mapping[str, float] = field(default_factory=dict)
 
 
 class Flight:
@@ -118,11 +131,15 @@ class Flight:
 
     def _start(self, run: AutopilotRun, runner: Runner, stack: ExitStack) -> None:
         from fluid_sim_ros.mavlink.mapping import load_mapping
+        from fluid_sim_ros.mavlink.program.parameters import needed_parameters, parameters_line
         from fluid_sim_ros.mavlink.program.program import Program
 
         options, home = run.options, self._simulation.scene.home
         file, _ = load_mapping(options.protocol, self.bridge.vehicle, options.mapping)
-        program = Program(run.program, options, file, home, self._say)
+        parameters = needed_parameters(file, run.parameters)
+        if parameters:
+            self._say(f'parameters given to the program: {parameters_line(parameters)}')
+        program = Program(run.program, options, file, home, parameters, self._say)
         stack.callback(program.close)
         before = runner.housekeeping
 

@@ -9,7 +9,7 @@ wanted.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, ClassVar, Literal, Protocol
+from typing import Any, Literal, Protocol
 
 from fluid_sim_ros.errors import needed_for
 from fluid_sim_ros.simulation import Simulation
@@ -42,6 +42,8 @@ class AutopilotOptions:
         Port to listen on; 0: that of the protocol and the instance.
     address
         Address to listen on; anything but a loopback address lets other hosts in.
+    program
+        Its program is started with the run, and so gets the parameters of the mapping.
     timeout
         Wall time that an autopilot which has answered is waited for [s]; simulated time stands
         still meanwhile.
@@ -59,6 +61,7 @@ class AutopilotOptions:
     instance: int = 0
     port: int = 0
     address: str = LOOPBACK
+    program: bool = False
     timeout: float = 60.0
     on_timeout: str = 'continue'
     sticks_timeout: float = 0.5
@@ -77,7 +80,6 @@ class Bridge(Protocol):
     """An autopilot at the other end of a socket; every method runs in the stepping thread."""
 
     vehicle: str
-    takes_sticks: ClassVar[bool]
 
     def begin(self, simulation: Simulation) -> None:
         """

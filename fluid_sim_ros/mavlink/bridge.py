@@ -12,6 +12,7 @@ from fluid_sim_ros.loop.autopilot_port import (
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.ardupilot.bridge import ArduPilotBridge
 from fluid_sim_ros.mavlink.mapping import load_mapping
+from fluid_sim_ros.mavlink.program.parameters import needed_parameters, parameters_line
 from fluid_sim_ros.simulation import Simulation
 
 
@@ -53,9 +54,12 @@ def open_bridge(
     vehicle = simulation.vehicle(options.vehicle)
     file, path = load_mapping(options.protocol, vehicle.name, options.mapping)
     actuators = ActuatorMap(file, path, vehicle)
+    if not options.program and (parameters := needed_parameters(file, {})):
+        line = f'{path.stem}: the autopilot needs {parameters_line(parameters)}'
+        surroundings.inform(line)
     if options.protocol == 'px4':
         # only this protocol needs pymavlink
         from fluid_sim_ros.mavlink.px4.bridge import Px4Bridge
 
         return Px4Bridge(simulation, options, surroundings, actuators, file)
-    return ArduPilotBridge(simulation, options, surroundings, actuators)
+    return ArduPilotBridge(simulation, options, surroundings, actuators, file)

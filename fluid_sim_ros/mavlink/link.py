@@ -4,7 +4,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar, Literal
 
-from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.loop.autopilot_commands import VehicleCommands
 from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
@@ -13,6 +12,8 @@ from fluid_sim_ros.loop.autopilot_port import (
 )
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.counters import Counters
+from fluid_sim_ros.mavlink.mapping import AutopilotFile
+from fluid_sim_ros.mavlink.sticks import CHANNELS, Sticks
 from fluid_sim_ros.simulation import Simulation
 
 #: Longest wait for an autopilot at a time [s], so that requests of other threads are served.
@@ -32,6 +33,8 @@ class AutopilotLink(ABC):
         As for ``autopilot.open_bridge``.
     actuators
         What its outputs drive.
+    file
+        The rest of the mapping.
 
     Attributes
     ----------
@@ -45,8 +48,8 @@ class AutopilotLink(ABC):
     #: What people call it, and its protocol in options.
     name: ClassVar[str]
     protocol: ClassVar[str]
-    #: Whether ``set_sticks`` is of use.
-    takes_sticks: ClassVar[bool] = False
+    #: Channels of a radio control that it takes.
+    channels: ClassVar[int] = CHANNELS
 
     def __init__(
         self,
@@ -54,13 +57,16 @@ class AutopilotLink(ABC):
         options: AutopilotOptions,
         surroundings: Surroundings,
         actuators: ActuatorMap,
+        file: AutopilotFile,
     ) -> None:
         self.vehicle = options.vehicle
         self.counters = Counters()
         self._surroundings = surroundings
         self._actuators = actuators
+        self._sticks = Sticks(file.rc, options.sticks_timeout, self.channels)
         self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
         self._outputs: Sequence[float] = ()
+        self._thrusts: Sequence[float] = ()  # [N]
 
     @abstractmethod
     def begin(self, simulation: Simulation) -> None:
@@ -105,28 +111,28 @@ class AutopilotLink(ABC):
 
     def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
         """
-        Take the sticks of a radio control; raises CommandError here.
+        Take the sticks of a radio control; see ``Sticks``.
 
         Parameters
         ----------
         axes
-            Deflections, -1 to 1.
+            Deflections, -1 to 1; saturated.
         buttons
             0 for off, another number for on.
 
         Raises
         ------
         CommandError
-            Always here: a protocol that has sticks defines this anew.
+            If they are too many, none, or not finite.
 
         """
-        raise CommandError(f'{self.name} takes its sticks from a ground station')
+        self._sticks.move(axes, buttons)
 
     def status(self) -> BridgeStatus:
         """Return what to show people."""
         counters = self.counters
         values = {
-            'protocol': self.protocol, **self._values(),
+            'protocol': self.protocol, **self._values(), 'sticks_lost': self._sticks.lost,
             'last_outputs': [round(value, 3) for value in self._outputs],
             'saturated': self._commands.saturated, **counters.values(),
         }  # fmt: skip
@@ -152,7 +158,8 @@ class AutopilotLink(ABC):
     def _drive(self, outputs: Sequence[float]) -> None:
         """Command what the outputs drive; one that moves and drives nothing is reported."""
         self._outputs = outputs
-        self._commands.set(*self._actuators.commands(outputs))
+        self._thrusts, joints = self._actuators.commands(outputs)
+        self._commands.set(self._thrusts, joints)
         stray = self._actuators.look_for_stray(outputs)
         if stray is not None:
             line = f'{self.name} moves output {stray}, which drives nothing'

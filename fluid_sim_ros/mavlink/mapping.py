@@ -1,16 +1,64 @@
 """Which output of an autopilot drives which thruster or joint: config/autopilots."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.resources import config_folder
-from fluid_sim_ros.schema.base import Number, Positive, Strict, parse
+from fluid_sim_ros.schema.base import NotNegative, Number, Positive, Strict, parse
 from fluid_sim_ros.schema.yaml_file import read_yaml
 
 Pulse = Annotated[int, Field(ge=800, le=2200)]
+
+
+class ParameterFile(Strict):
+    """
+    A parameter of the autopilot: ``value``, and the ``reason`` why the vehicle needs it.
+
+    In a file a number alone is a value.
+    """
+
+    value: Number
+    reason: str = ''
+
+
+def _parameter(content: Any) -> Any:
+    return content if isinstance(content, dict | ParameterFile) else {'value': content}
+
+
+Parameter = Annotated[ParameterFile, BeforeValidator(_parameter)]
+ParameterName = Annotated[str, Field(pattern='^[A-Z][A-Z0-9_]*$')]
+
+
+class BatteryFile(Strict):
+    """
+    A battery that all thrusters draw on.
+
+    Attributes
+    ----------
+    full, empty
+        Voltage without load when it is full and when it is empty [V], and linear between.
+    capacity
+        [Ah].
+    resistance
+        Inside [ohm].
+    idle
+        Current of everything but the thrusters [A].
+    full_current
+        Current of all thrusters at full thrust [A]; it goes with thrust to the power of 1.5, as
+        the power of an actuator disk.
+
+    """
+
+    full: Positive
+    empty: Positive
+    capacity: Positive
+    resistance: NotNegative = 0.0
+    idle: NotNegative = 0.0
+    full_current: Positive
+    source: str = ''
 
 
 class ActuatorFile(Strict):
@@ -66,15 +114,20 @@ class AutopilotFile(Strict):
     airframe
         What the autopilot calls this vehicle: SYS_AUTOSTART of PX4, the program of ArduPilot.
     parameters
-        ArduPilot: parameters that the vehicle needs, given to a program that we start.
+        What the autopilot must be set to for this vehicle, by name; given to a program that is
+        started with the run.
     actuators
         What drives each thruster and joint.
     vision
         PX4: send the true pose and velocity as a vision system would (vehicles without GNSS).
     gnss_delay
         PX4: age that it takes a fix of its receiver for [s], its EKF2_GPS_DELAY.
+    optical_flow
+        PX4: send what a downward camera sees, by the true motion; needs a rangefinder.
+    battery
+        ArduPilot: what its battery monitor measures; PX4 has a battery of its own.
     rc
-        PX4: sticks of a radio control [us], sent all the time; empty: none.
+        Sticks of a radio control [us], sent all the time; empty: none.
     ignored
         Outputs that may move without driving anything.
 
@@ -83,10 +136,12 @@ class AutopilotFile(Strict):
     protocol: Literal['px4', 'ardupilot']
     airframe: str
     source: str = ''
-    parameters: dict[str, Number] = Field(default_factory=dict)
+    parameters: dict[ParameterName, Parameter] = Field(default_factory=dict)
     actuators: list[ActuatorFile]
     vision: bool = False
     gnss_delay: Annotated[Number, Field(ge=0, le=0.3)] = 0.01
+    optical_flow: bool = False
+    battery: BatteryFile | None = None
     rc: Annotated[tuple[Pulse, ...], Field(max_length=18)] = ()
     ignored: tuple[int, ...] = ()
 

@@ -25,6 +25,8 @@ class Sticks:
         Pulses [us] of the channels as long as nobody has moved anything; empty: no radio.
     timeout
         Wall time after which sticks are lost [s]; 0: never.
+    channels
+        How many the autopilot takes.
 
     Attributes
     ----------
@@ -33,7 +35,8 @@ class Sticks:
 
     """
 
-    def __init__(self, resting: Sequence[int], timeout: float) -> None:
+    def __init__(self, resting: Sequence[int], timeout: float, channels: int = CHANNELS) -> None:
+        self._channels = channels
         self._pulses = tuple(resting)
         self._timeout = timeout
         self._moved_at = math.inf  # nobody has
@@ -57,8 +60,10 @@ class Sticks:
 
         """
         count = len(axes) + len(buttons)
-        if not 1 <= count <= CHANNELS:
-            raise CommandError(f'{count} axes and buttons; a radio control has 1 to {CHANNELS}')
+        if not 1 <= count <= self._channels:
+            raise CommandError(
+                f'{count} axes and buttons; a radio control has 1 to {self._channels}'
+            )
         if not all(map(math.isfinite, axes)):
             raise CommandError(f'{list(axes)} holds a value that is not finite')
         self._pulses = (

@@ -119,6 +119,5 @@ def start_autopilot(
     )  # fmt: skip
     log = CommandTap(inputs) if settings['record'] else None
     bridge = open_bridge(simulation, options, Surroundings(report, inform, reset, log))
-    if bridge.takes_sticks:
-        inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
+    inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
     return bridge

@@ -169,12 +169,16 @@ def test_ardupilot(case):
     for field in ('qpos', 'qvel', 'act', 'ctrl', 'qfrc_applied'):
         getattr(data, field)[:] = getattr(source, field)
     flight.simulation.model.opt.wind[:] = (3.0, 2.0, 0.0)  # to the east and north
-    read = JsonReader().read(write_state(StateReader(flight.simulation, 'x500').read(1.0)))
+    reader = StateReader(flight.simulation, 'x500', Sticks((), 0.0), None)
+    read = JsonReader().read(write_state(reader.read(1.0)))
     assert read['attitude'] == pytest.approx(angles, abs=1e-6)
     assert turned_by(read['quaternion']) == pytest.approx(angles, abs=1e-6)
     assert read['gyro'] == pytest.approx(rates, abs=1e-6)
     assert read['velocity'] == pytest.approx(velocity, abs=1e-6)
     assert read['position'] == pytest.approx([10, 20, -30])
     assert read['velocity_wind'] == pytest.approx([2, 3, 0])
+    if case == 'level':  # the wind comes from behind and from the left
+        assert read['direction'] == [pytest.approx(math.atan2(-3, -2))]
+        assert read['speed'] == [pytest.approx(math.hypot(2, 3))]
     if case in FORCE:
         assert read['accel_body'] == pytest.approx(FORCE[case], abs=0.6)  # the wind drags

@@ -34,18 +34,17 @@ def alive(pid: int) -> bool:
 
 def started(command, show, protocol='px4', vehicle='x500', **options):
     file, _ = load_mapping(protocol, vehicle)
-    return Program(command, AutopilotOptions(protocol, **options), file, Home(), show)
+    return Program(command, AutopilotOptions(protocol, **options), file, Home(), {}, show)
 
 
 # ---- how it is started ---------------------------------------------------------------------
 
 
 def test_command_lines(tmp_path):
-    px4, _ = load_mapping('px4', 'x500')
     options = AutopilotOptions('px4', instance=2)
-    command = command_line('bin/px4 -w "a b"', options, px4, Home(), tmp_path)
+    command = command_line('bin/px4 -w "a b"', options, {}, Home(), tmp_path)
     assert command == ['bin/px4', '-w', 'a b', '-d', '-i', '2']
-    sub, _ = load_mapping('ardupilot', 'bluerov2')
+    sub = {'FRAME_CONFIG': 1.0, 'PSC_D_ACC_P': 0.2}
     options = AutopilotOptions('ardupilot', instance=1)
     home = Home(latitude=1.5, longitude=-2.0)
     command = command_line('./ardusub', options, sub, home, tmp_path)
@@ -53,10 +52,13 @@ def test_command_lines(tmp_path):
         './ardusub', '--model', 'JSON:127.0.0.1', '--home', '1.5,-2.0,0.0,90', '--speedup', '100',
         '-I', '1', '--serial0', 'tcp:0', '--defaults', str(tmp_path / 'parameters.parm'),
     ]  # fmt: skip
-    assert (tmp_path / 'parameters.parm').read_text() == 'FRAME_CONFIG 1\n'
-    for given in ('--defaults mine.parm', '--defaults=mine.parm'):
-        command = command_line(f'ardusub {given}', options, sub, home, tmp_path)
-        assert sum('--defaults' in word for word in command) == 1
+    assert (tmp_path / 'parameters.parm').read_text() == 'FRAME_CONFIG 1\nPSC_D_ACC_P 0.2\n'
+    # of a name that stands twice ArduPilot takes the last
+    command = command_line('ardusub --defaults a.parm,b.parm', options, sub, home, tmp_path)
+    assert command[1:3] == ['--defaults', f'a.parm,b.parm,{tmp_path}/parameters.parm']
+    command = command_line('ardusub --defaults=a.parm', options, sub, home, tmp_path)
+    assert command[1] == f'--defaults=a.parm,{tmp_path}/parameters.parm'
+    assert command.count('--defaults') == 0
     for given in ('--serial0 tcp:0:wait', '--serial0=udpclient:1.2.3.4', '--uartA tcp:0'):
         command = command_line(f'ardusub {given}', options, sub, home, tmp_path)
         assert sum('serial0' in word or 'uartA' in word for word in command) == 1

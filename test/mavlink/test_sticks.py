@@ -77,8 +77,9 @@ def test_px4_gets_them_and_loses_them():
         assert flight.bridge.status().values['sticks_lost'] == 1
 
 
-def test_ardupilot_refuses_them():
+def test_ardupilot_takes_12_channels():
     flight = BridgedFlight('x500_ground', 'ardupilot')
-    with pytest.raises(CommandError, match='ArduPilot takes its sticks from a ground station'):
-        flight.bridge.set_sticks([0.0], [])
+    with pytest.raises(CommandError, match='13 axes and buttons; a radio control has 1 to 12'):
+        flight.bridge.set_sticks([0.0] * 13, [])
+    flight.bridge.set_sticks([0.0] * 12, [])
     flight.bridge.close()

@@ -14,6 +14,7 @@ from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     LONGEST_PACKET,
+    RC_CHANNELS,
     ServoPacket,
     read_servo_packet,
     write_state,
@@ -21,7 +22,9 @@ from fluid_sim_ros.mavlink.ardupilot.json_packets import (
 from fluid_sim_ros.mavlink.ardupilot.json_state import StateReader
 from fluid_sim_ros.mavlink.ardupilot.station import Station
 from fluid_sim_ros.mavlink.ardupilot.udp_port import Datagram, UdpPort
+from fluid_sim_ros.mavlink.battery import Battery
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
+from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.silence import REPORT_AFTER, Silence
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
@@ -41,6 +44,8 @@ class ArduPilotBridge(AutopilotLink):
     ----------
     simulation, options, surroundings, actuators
         As for ``AutopilotLink``.
+    file
+        The rest of the mapping.
 
     Raises
     ------
@@ -50,6 +55,7 @@ class ArduPilotBridge(AutopilotLink):
     """
 
     name, protocol = 'ArduPilot', 'ardupilot'
+    channels = RC_CHANNELS
 
     def __init__(
         self,
@@ -57,9 +63,12 @@ class ArduPilotBridge(AutopilotLink):
         options: AutopilotOptions,
         surroundings: Surroundings,
         actuators: ActuatorMap,
+        file: AutopilotFile,
     ) -> None:
-        super().__init__(simulation, options, surroundings, actuators)
-        self._state = StateReader(simulation, options.vehicle)
+        super().__init__(simulation, options, surroundings, actuators, file)
+        limits = simulation.vehicle(options.vehicle).thrust_range[:, 1].tolist()
+        self._battery = Battery(file.battery, limits) if file.battery else None
+        self._state = StateReader(simulation, options.vehicle, self._sticks, self._battery)
         self._longest = exact(simulation.timestep)
         port = options.port or FIRST_PORT + PORT_STEP * options.instance
         self._port = UdpPort(options.address, port, LONGEST_PACKET)
@@ -169,6 +178,8 @@ class ArduPilotBridge(AutopilotLink):
             self.counters.answered += 1
         self._count = packet.count
         self._drive(packet.pulses)
+        if self._battery is not None:
+            self._battery.draw(self._thrusts, 1e-6 * frame_us(packet.rate))
         self._frame_end = simulation.step_count + self._steps
         self._owed = True
 

@@ -7,6 +7,7 @@ one, so there are no spaces, and ``velocity`` stands before ``velocity_wind``.
 """
 
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fluid_sim_ros.mavlink.ned import Quaternion, Vector3, euler
@@ -15,6 +16,8 @@ _HEAD = struct.Struct('<HHI')
 _PULSES = {18458: struct.Struct('<16H'), 29569: struct.Struct('<32H')}
 #: No servo packet is longer [bytes].
 LONGEST_PACKET = _HEAD.size + 2 * 32
+#: Channels of a radio control that it takes.
+RC_CHANNELS = 12
 #: A step of 0.1 s or more is a fault for ArduPilot itself; beyond the highest rate pulses are
 #: no longer servo commands [Hz].
 RATES = range(11, 8001)
@@ -78,6 +81,13 @@ class JsonState:
         Speed through the air [m/s], or None.
     range_m
         Distance that the rangefinder measures [m], or None.
+    wind_vane
+        Wind as the vehicle meets it: where it comes from, clockwise from ahead [rad], and its
+        speed [m/s]; or None.
+    rc
+        Pulse widths of the sticks [us], at most 12; empty: none.
+    battery
+        Voltage [V] and current [A], or None.
 
     """
 
@@ -90,6 +100,9 @@ class JsonState:
     wind: Vector3 | None = None
     airspeed: float | None = None
     range_m: float | None = None
+    wind_vane: tuple[float, float] | None = None
+    rc: Sequence[int] = ()
+    battery: tuple[float, float] | None = None
 
 
 _STATE = (
@@ -125,4 +138,13 @@ def write_state(state: JsonState) -> bytes:
         text += f',"airspeed":{state.airspeed:.9g}'
     if state.range_m is not None:
         text += f',"rng_1":{state.range_m:.9g}'
+    if state.wind_vane is not None:
+        direction, speed = state.wind_vane
+        text += f',"windvane":{{"direction":{direction:.9g},"speed":{speed:.9g}}}'
+    if state.rc:
+        channels = ','.join(f'"rc_{i}":{pulse}' for i, pulse in enumerate(state.rc, 1))
+        text += f',"rc":{{{channels}}}'
+    if state.battery is not None:
+        voltage, current = state.battery
+        text += f',"battery":{{"voltage":{voltage:.6g},"current":{current:.6g}}}'
     return (text + '}\n').encode()

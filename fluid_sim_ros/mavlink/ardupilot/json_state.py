@@ -1,7 +1,12 @@
 """What ArduPilot gets to know of its vehicle at the end of each frame."""
 
+import math
+
 from fluid_sim_ros.mavlink.ardupilot.json_packets import JsonState
-from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
+from fluid_sim_ros.mavlink.battery import Battery
+from fluid_sim_ros.mavlink.ned import euler
+from fluid_sim_ros.mavlink.sticks import Sticks
+from fluid_sim_ros.mavlink.vehicle_truth import Truth, TruthReader
 from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
@@ -19,11 +24,17 @@ class StateReader:
     ----------
     simulation, vehicle
         Where the vehicle is, and its name.
+    sticks
+        Of a radio control.
+    battery
+        What its monitor measures, or None.
 
     """
 
-    def __init__(self, simulation: Simulation, vehicle: str) -> None:
-        self._simulation = simulation
+    def __init__(
+        self, simulation: Simulation, vehicle: str, sticks: Sticks, battery: Battery | None
+    ) -> None:
+        self._simulation, self._sticks, self._battery = simulation, sticks, battery
         self._truth = TruthReader(simulation, vehicle)
         self._suite = _sensors(simulation, vehicle)
         self._aerial = simulation.streams == ('wind',)
@@ -44,9 +55,12 @@ class StateReader:
 
         """
         truth = self._truth.read(forces=True)
+        air, vane = (truth.air_ned, _vane(truth)) if self._aerial else (None, None)
+        battery = self._battery
         return JsonState(
             time_s, truth.rates, truth.specific_force, truth.position_ned, truth.velocity_ned,
-            truth.attitude, truth.air_ned if self._aerial else None, *self._measure(),
+            truth.attitude, air, *self._measure(), vane, self._sticks.pulses(),
+            None if battery is None else (battery.voltage, battery.current),
         )  # fmt: skip
 
     def _measure(self) -> tuple[float | None, float | None]:
@@ -57,6 +71,14 @@ class StateReader:
         if suite.rangefinder is None:
             return airspeed, None
         return airspeed, min(max(suite.rangefinder.distance, 0.0), _OUT_OF_RANGE)
+
+
+def _vane(truth: Truth) -> tuple[float, float]:
+    """Return where the wind comes from, clockwise from ahead [rad], and its speed [m/s]."""
+    north, east, _ = (v - a for v, a in zip(truth.velocity_ned, truth.air_ned, strict=True))
+    speed = math.hypot(north, east)
+    heading = euler(truth.attitude)[2]
+    return (math.remainder(math.atan2(east, north) - heading, math.tau) if speed else 0.0), speed
 
 
 def _sensors(simulation: Simulation, vehicle: str) -> SensorSuite:

@@ -1,11 +1,12 @@
 """What starts an autopilot's program: the user's command, and what the bridge knows better."""
 
 import shlex
+from collections.abc import Mapping
 from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
-from fluid_sim_ros.mavlink.mapping import AutopilotFile
+from fluid_sim_ros.mavlink.program.parameters import with_defaults
 from fluid_sim_ros.schema.scene import Home
 
 #: So fast that ArduPilot never waits for its own clock: the bridge sets the pace.
@@ -17,10 +18,14 @@ _SERIAL0, _WITHOUT_WAITING = ('--serial0', '--uartA'), 'tcp:0'
 
 
 def command_line(
-    command: str, options: AutopilotOptions, file: AutopilotFile, home: Home, folder: Path
+    command: str,
+    options: AutopilotOptions,
+    parameters: Mapping[str, float],
+    home: Home,
+    folder: Path,
 ) -> list[str]:
     """
-    Return the arguments that start an autopilot; its parameters become a file in ``folder``.
+    Return the arguments that start an autopilot; ArduPilot's parameters become a file.
 
     Parameters
     ----------
@@ -28,8 +33,8 @@ def command_line(
         What the user would type, as one line; ``~`` as a shell has it.
     options
         Protocol, instance and address.
-    file
-        The mapping, which holds ArduPilot's parameters.
+    parameters
+        Value by name; PX4 gets them otherwise.
     home
         Where the vehicle starts [deg], [deg], [m].
     folder
@@ -61,11 +66,7 @@ def command_line(
         added += ['--sim-port-out', str(options.port)]
     if not has_option(arguments, *_SERIAL0):
         added += [_SERIAL0[0], _WITHOUT_WAITING]
-    if file.parameters and not has_option(arguments, '--defaults'):
-        path = folder / 'parameters.parm'
-        path.write_text(''.join(f'{key} {value:g}\n' for key, value in file.parameters.items()))
-        added += ['--defaults', str(path)]
-    return [*arguments, *added]
+    return with_defaults([*arguments, *added], parameters, folder)
 
 
 def _expanded(word: str) -> str:

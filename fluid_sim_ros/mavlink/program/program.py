@@ -5,7 +5,7 @@ import signal
 import subprocess
 import tempfile
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.program.command_line import command_line
 from fluid_sim_ros.mavlink.program.family import Guard, die_with_parent, ended, family_of, kill
+from fluid_sim_ros.mavlink.program.parameters import px4_environment
 from fluid_sim_ros.schema.scene import Home
 
 #: Longest line of the log that is shown [bytes]; the rest follows as another.
@@ -34,6 +35,8 @@ class Program:
         What the user would type, without what the bridge knows better.
     options, file, home
         Which instance of what, and where.
+    parameters
+        What it is set to: value by name.
     show
         Takes each line that it writes; called in a thread of its own.
 
@@ -50,17 +53,21 @@ class Program:
         options: AutopilotOptions,
         file: AutopilotFile,
         home: Home,
+        parameters: Mapping[str, float],
         show: Callable[[str], None],
     ) -> None:
         self._grace = _GRACE[options.protocol]
         self._end: int | None = None
         self._folder = tempfile.TemporaryDirectory(prefix='fluid_sim_autopilot_')
-        airframe = {'PX4_SYS_AUTOSTART': file.airframe} if options.protocol == 'px4' else {}
+        environment = dict(os.environ)
+        if options.protocol == 'px4':
+            environment |= {'PX4_SYS_AUTOSTART': file.airframe}
+            environment |= px4_environment(parameters, os.environ)
         try:
-            arguments = command_line(command, options, file, home, Path(self._folder.name))
+            arguments = command_line(command, options, parameters, home, Path(self._folder.name))
             self._process = subprocess.Popen(
                 arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT, env={**os.environ, **airframe},
+                stderr=subprocess.STDOUT, env=environment,
                 # a group of its own: Ctrl-C ends the simulation, which ends the program
                 start_new_session=True, preexec_fn=die_with_parent,
             )  # fmt: skip

@@ -11,7 +11,6 @@ sends no outputs, as in flight termination: it still reads what it gets, which s
 """
 
 import time
-from collections.abc import Sequence
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
@@ -25,7 +24,6 @@ from fluid_sim_ros.mavlink.px4.hil_state import HilState
 from fluid_sim_ros.mavlink.px4.reading import Reading
 from fluid_sim_ros.mavlink.px4.tcp_server import TcpServer
 from fluid_sim_ros.mavlink.silence import Silence
-from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
 
@@ -56,7 +54,6 @@ class Px4Bridge(AutopilotLink):
     """
 
     name, protocol = 'PX4', 'px4'
-    takes_sticks = True
 
     def __init__(
         self,
@@ -72,9 +69,8 @@ class Px4Bridge(AutopilotLink):
                 f'px4: the timestep of {simulation.timestep:g} s does not divide 4 ms, the period '
                 'of PX4; choose one that does, such as 0.002 s'
             )
-        super().__init__(simulation, options, surroundings, actuators)
+        super().__init__(simulation, options, surroundings, actuators, file)
         self._period = steps.numerator
-        self._sticks = Sticks(file.rc, options.sticks_timeout)
         self._state = HilState(simulation, options.vehicle, file, self._sticks)
         self._writer, self._reader = HilWriter(), HilReader()
         self._server = TcpServer(options.address, options.port or FIRST_PORT + options.instance)
@@ -116,30 +112,10 @@ class Px4Bridge(AutopilotLink):
             self._send(now_us)
         return self._wait()
 
-    def set_sticks(self, axes: Sequence[float], buttons: Sequence[float]) -> None:
-        """
-        Take the sticks of a radio control, which PX4 gets as RC_CHANNELS; see ``Sticks``.
-
-        Parameters
-        ----------
-        axes
-            Deflections, -1 to 1; saturated.
-        buttons
-            0 for off, another number for on.
-
-        Raises
-        ------
-        CommandError
-            If they are too many, none, or not finite.
-
-        """
-        self._sticks.move(axes, buttons)
-
     def _values(self) -> dict[str, Any]:
         return {
             'port': self.port, 'peer': self._server.peer,
             'autopilot_time_s': self._sent_us * 1e-6, 'armed': self._armed,
-            'sticks_lost': self._sticks.lost,
         }  # fmt: skip
 
     def _trouble(self) -> Trouble | None:

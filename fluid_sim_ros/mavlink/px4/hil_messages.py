@@ -73,7 +73,16 @@ class HilWriter:
     def __init__(self, system: int = 1, component: int = 51) -> None:
         self._mav = dialect.MAVLink(None, srcSystem=system, srcComponent=component)
 
-    def _pack(self, message: dialect.MAVLink_message) -> bytes:
+    def pack(self, message: dialect.MAVLink_message) -> bytes:
+        """
+        Return the frame of a message of the dialect.
+
+        Parameters
+        ----------
+        message
+            With its fields.
+
+        """
         data: bytes = message.pack(self._mav)
         self._mav.seq = (self._mav.seq + 1) % 256
         return data
@@ -151,7 +160,7 @@ class HilWriter:
         north, east, down = (_int16(100 * v) for v in velocity_ned)
         speed = min(round(100 * math.hypot(*velocity_ned[:2])), 65534)
         course = math.degrees(math.atan2(velocity_ned[1], velocity_ned[0])) % 360
-        return self._pack(
+        return self.pack(
             dialect.MAVLink_hil_gps_message(
                 time_us, 3, round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
                 eph, epv, speed, north, east, down,
@@ -201,7 +210,7 @@ class HilWriter:
         """
         latitude, longitude, altitude = geodetic
         air = min(max(round(100 * airspeed), 0), 65535)
-        return self._pack(
+        return self.pack(
             dialect.MAVLink_hil_state_quaternion_message(
                 time_us, list(attitude), *rates,
                 round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
@@ -246,7 +255,7 @@ class HilWriter:
             One MAVLink frame.
 
         """
-        return self._pack(
+        return self.pack(
             dialect.MAVLink_odometry_message(
                 time_us, _LOCAL_NED, _BODY_FRD, *position_ned, list(attitude), *velocity_frd,
                 *rates, _triangle(pose_variance), _triangle(velocity_variance),
@@ -256,7 +265,7 @@ class HilWriter:
 
     def heartbeat(self) -> bytes:
         """Return the simulator's HEARTBEAT."""
-        return self._pack(dialect.MAVLink_heartbeat_message(_GCS, _NOT_AN_AUTOPILOT, 0, 0, 0, 3))
+        return self.pack(dialect.MAVLink_heartbeat_message(_GCS, _NOT_AN_AUTOPILOT, 0, 0, 0, 3))
 
     def rc_channels(self, time_ms: int, channels: Sequence[int]) -> bytes:
         """
@@ -276,9 +285,7 @@ class HilWriter:
 
         """
         pulses = [*channels, *[65535] * (18 - len(channels))]
-        return self._pack(
-            dialect.MAVLink_rc_channels_message(time_ms, len(channels), *pulses, 255)
-        )
+        return self.pack(dialect.MAVLink_rc_channels_message(time_ms, len(channels), *pulses, 255))
 
 
 def _int16(value: float) -> int:

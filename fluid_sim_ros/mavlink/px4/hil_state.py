@@ -8,6 +8,7 @@ from typing import TypeVar
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
+from fluid_sim_ros.mavlink.px4.hil_aids import OpticalFlow, distance_sensor
 from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter, SensorReadings
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
@@ -18,6 +19,7 @@ from fluid_sim_ros.physics.environment.atmosphere import (
 )
 from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
+from fluid_sim_ros.sensors.beams import Rangefinder
 from fluid_sim_ros.sensors.geodesy import LocalFrame
 from fluid_sim_ros.sensors.gnss import Gnss
 from fluid_sim_ros.sensors.sensor import Sensor
@@ -28,10 +30,12 @@ Present = TypeVar('Present', bound=Sensor)
 
 #: Exchanges per second.
 RATE = 250
-#: Every so many exchanges: magnetic field (83 Hz), pressures and vision (50 Hz), truth and GNSS
-#: (10 Hz), radio control (10 Hz), heartbeat (1 Hz).
+#: Every so many exchanges: magnetic field (83 Hz), pressures, vision, distance and flow (50 Hz),
+#: truth and GNSS (10 Hz), radio control (10 Hz), heartbeat (1 Hz).
 _FIELD, _PRESSURE, _TRUTH, _STICKS, _HEARTBEAT = 3, 5, 25, 25, 250
 _GAUSS, _HECTOPASCAL, _CELSIUS = 1e4, 1e-2, -273.15
+#: Range of a rangefinder that states none [m].
+_FARTHEST = 100.0
 #: Of the pressure that is sent with vision [Pa], either way.
 _DITHER = 1.0
 #: Variances that go with the true pose and velocity: [m^2] and [rad^2], [m^2/s^2] and [rad^2/s^2].
@@ -81,6 +85,10 @@ class HilState:
         if not file.vision:
             _there(suite.barometer, 'barometer', vehicle)
             _there(suite.gnss, 'gnss', vehicle)
+        self._range = suite.rangefinder
+        if file.optical_flow and self._range is None:
+            _there(None, 'rangefinder', vehicle)
+        self._flow = OpticalFlow() if file.optical_flow else None
         self._noise = random.Random(simulation.seed)
         self._count = 0
 
@@ -115,6 +123,8 @@ class HilState:
             others += self._fix(writer, now_us, self._gnss)
         if count % _TRUTH == 0:
             others += self._true_state(writer, now_us)
+        if self._range is not None:
+            others += self._ground(writer, now_us, self._range)
         if count % _STICKS == 0 and (pulses := self._sticks.pulses()):
             others += writer.rc_channels(now_us // 1000, pulses)
         if count % _HEARTBEAT == 0:
@@ -128,6 +138,20 @@ class HilState:
             p + self._moved * v for p, v in zip(gnss.position_w.tolist(), velocity_w, strict=True)
         ]
         return writer.gps(now_us, *self._frame.geodetic(*place), enu_to_ned(velocity_w))
+
+    def _ground(self, writer: HilWriter, now_us: int, sensor: Rangefinder) -> bytes:
+        """Return DISTANCE_SENSOR and, where it is wanted, HIL_OPTICAL_FLOW, of a new reading."""
+        distance = sensor.distance
+        if self._flow is not None and math.isfinite(distance):
+            truth = self._truth.read(forces=False)
+            self._flow.add(truth.rates, truth.velocity_frd, distance, 1 / RATE)
+        if not sensor.fresh:
+            return b''
+        nearest, farthest = sensor.config.distance.range or (0.0, _FARTHEST)
+        data = writer.pack(distance_sensor(now_us // 1000, distance, nearest, farthest))
+        if self._flow is not None:
+            data += writer.pack(self._flow.message(now_us, distance))
+        return data
 
     def _readings(self) -> SensorReadings:
         imu, barometer, airspeed = self._imu, self._barometer, self._airspeed
@@ -174,7 +198,7 @@ def _there(sensor: Present | None, kind: str, vehicle: str) -> Present:
 
 def _for_px4(sensors: SensorsFile, vision: bool, gnss_latency: Fraction) -> SensorsFile:
     """Return the sensors that PX4 takes: at its rates, and as late as it takes them for [s]."""
-    periods = {'imu': 1, 'magnetometer': _FIELD, 'airspeed': _PRESSURE}
+    periods = {'imu': 1, 'magnetometer': _FIELD, 'airspeed': _PRESSURE, 'rangefinder': _PRESSURE}
     if not vision:
         periods |= {'barometer': _PRESSURE, 'gnss': _TRUTH}
     chosen = {

@@ -30,12 +30,15 @@ def test_a_copter_takes_off_and_holds_its_place(flight, link):
 def test_an_aircraft_waits_on_its_wheels_and_takes_off():
     with BridgedFlight('aerosonde_ground', 'ardupilot').running() as flight:
         link, plane = Link(flight.port), Plane()
-        for _ in range(400):
-            state = link.exchange(padded([1500, 1500, 1000, 1500]))
-        assert state['position'] == pytest.approx([0, 0, -0.4145], abs=1e-3)
+        flight.simulation.set_wind((-5.0, 0.0, 0.0))  # ahead
+        for _ in range(4000):  # before ArduPlane is armed it sends its least throttle
+            state = link.exchange(padded([1500, 1500, 1100, 1500]))
+        assert state['position'] == pytest.approx([0, 0, -0.4145], abs=3e-3)
+        flight.simulation.set_wind((0.0, 0.0, 0.0))
         for _ in range(4800):
             state = link.exchange(plane.pulses(state))
         north, east, down = state['position']
+        assert flight.simulation.data.ctrl[0] == pytest.approx(88.07, rel=1e-3)  # full thrust
         assert down < -30.0
         assert east > 200.0
         assert abs(north) < 20.0

@@ -2,11 +2,14 @@
 
 import math
 
+import numpy as np
 import pytest
 
+from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge
 from test.support.autopilots.autopilot_peers import BridgedFlight
 from test.support.autopilots.px4_pilots import Plane, Quad, Submarine
+from test.support.autopilots.px4_plane import FixedWing
 from test.support.autopilots.px4_stand_in import Px4
 
 IDLE = [0.0] * 4
@@ -39,6 +42,33 @@ def test_an_aircraft_waits_on_its_wheels_and_takes_off(monkeypatch):
         assert east > 200.0
         assert abs(north) < 20.0
         assert flight.bridge.counters.missed == 0
+
+
+def highest_and_lowest(parameters, monkeypatch):
+    """Take off and loiter for 40 s; return height after 15 s, deepest dip, last height [m]."""
+    monkeypatch.setattr(px4_bridge, '_FREE_WHEEL', 0.004)
+    with BridgedFlight('aerosonde_ground', 'px4').running() as flight:
+        px4, plane = Px4(flight.port, silent=15), FixedWing(parameters)
+        controls, heights = [0.0] * 16, []
+        for _ in range(10_000):
+            controls = plane.controls(px4, px4.exchange(controls))
+            heights.append(flight.simulation.data.qpos[2] - 0.4145)
+    dips = np.maximum.accumulate(heights) - heights
+    return heights[3750], dips.max(), heights[-1]
+
+
+def test_with_the_shipped_parameters_it_climbs_and_loiters_without_a_dip(monkeypatch):
+    file, _ = load_mapping('px4', 'aerosonde')
+    parameters = {name: entry.value for name, entry in file.parameters.items()}
+    early, dip, last = highest_and_lowest(parameters, monkeypatch)
+    assert early > 20.0
+    assert dip < 0.2
+    assert last == pytest.approx(30.0, abs=1.0)
+
+
+def test_with_those_of_the_airframe_it_does_not_get_off_the_ground(monkeypatch):
+    early, _, _ = highest_and_lowest({}, monkeypatch)
+    assert early < 0.1
 
 
 def test_a_submarine_dives_turns_and_goes_ahead(monkeypatch):

@@ -125,7 +125,7 @@ class Plane:
         elevator = clipped(0.3 + 1.5 * (self.climb - pitch) - 0.5 * q)  # > 0 pitches up
         rudder = clipped(0.8 * math.remainder(math.pi / 2 - yaw, math.tau) - 0.3 * r)
         sticks = [round(1500 + 400 * share) for share in (aileron, elevator, rudder)]
-        return padded([sticks[0], sticks[1], 2000, sticks[2]])
+        return padded([sticks[0], sticks[1], 1900, sticks[2]])
 
 
 class Submarine:

@@ -35,7 +35,11 @@ def waited(condition, seconds=10.0):
 
 
 class BridgedFlight:
-    """A simulation with a bridge, run in a thread of its own; ``reports`` are (key, line)."""
+    """
+    A simulation with a bridge, run in a thread of its own.
+
+    ``reports`` are (key, line), ``opening`` the lines that were said before.
+    """
 
     def __init__(
         self,
@@ -55,6 +59,8 @@ class BridgedFlight:
         # a port of the system's choice, so that tests run side by side
         chosen = AutopilotOptions(protocol, **{'port': free_port(protocol), **options})
         self.bridge = open_bridge(self.simulation, chosen, surroundings)
+        self.opening = [line for _, line in self.reports]
+        self.reports.clear()
         self.port = self.bridge.port
         pacing = AutopilotPacing(self.bridge, clock or Pacing())
         self.runner = Runner(self.simulation, NoSource(), [], pacing)

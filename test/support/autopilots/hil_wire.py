@@ -50,6 +50,17 @@ LAYOUTS = {
         'time_usec attitude_quaternion:4 rollspeed pitchspeed yawspeed lat lon alt vx vy vz '
         'ind_airspeed true_airspeed xacc yacc zacc',
     ),
+    114: _layout(
+        'HIL_OPTICAL_FLOW', 237, 'Q I 5f I f h BB',
+        'time_usec integration_time_us integrated_x integrated_y integrated_xgyro '
+        'integrated_ygyro integrated_zgyro time_delta_distance_us distance temperature sensor_id '
+        'quality',
+    ),
+    132: _layout(
+        'DISTANCE_SENSOR', 85, 'I 3H 4B 2f 4f B',
+        'time_boot_ms min_distance max_distance current_distance type id orientation covariance '
+        'horizontal_fov vertical_fov quaternion:4 signal_quality',
+    ),
     331: _layout(
         'ODOMETRY', 91, 'Q 3f 4f 3f 3f 21f 21f BB BBb',
         'time_usec x y z q:4 vx vy vz rollspeed pitchspeed yawspeed pose_covariance:21 '

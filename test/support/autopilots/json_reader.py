@@ -20,6 +20,11 @@ KEYS = (
     ('', 'velocity_wind', 3, False),
     ('', 'airspeed', 1, False),
     ('', 'rng_1', 1, False),
+    ('windvane', 'direction', 1, False),
+    ('windvane', 'speed', 1, False),
+    *(('rc', f'rc_{i}', 1, False) for i in range(1, 13)),
+    ('battery', 'voltage', 1, False),
+    ('battery', 'current', 1, False),
 )
 
 
@@ -41,8 +46,9 @@ class JsonReader:
         assert ' ' not in text
         found = {}
         for section, key, count, required in KEYS:
-            start = text.find(section) + len(section) if section else 0
-            at = text.find(key, start)
+            found_section = text.find(section) if section else 0
+            start = found_section + len(section) + 1
+            at = text.find(key, start) if found_section >= 0 else -1
             if at < 0:
                 assert not required, f'{key} is missing'
                 continue
