@@ -12,6 +12,7 @@ from typing import Any
 
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
+from fluid_sim_ros.mavlink.ardupilot.frame_check import FrameCheck
 from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     LONGEST_PACKET,
     RC_CHANNELS,
@@ -75,6 +76,8 @@ class ArduPilotBridge(AutopilotLink):
         self.port = self._port.port
         self._peer: Any = None
         self._station = Station(options.instance)
+        stated = {name: entry.value for name, entry in file.parameters.items()}
+        self._frame = FrameCheck(options.instance, stated)
         self._heard_at = self._silent_at = 0.0
         self._silence = Silence(self.name, options, surroundings, self.counters)
         self._count = -1
@@ -147,6 +150,7 @@ class ArduPilotBridge(AutopilotLink):
 
     def close(self) -> None:
         """Close the socket."""
+        self._frame.stop()
         self._port.close()
 
     # ---- one frame -------------------------------------------------------------------------
@@ -176,6 +180,8 @@ class ArduPilotBridge(AutopilotLink):
                 self._surroundings.log.event(timestep=str(timestep))
         if self._count >= 0:
             self.counters.answered += 1
+        if line := self._frame.differences():
+            self._surroundings.report('frame', line)
         self._count = packet.count
         self._drive(packet.pulses)
         if self._battery is not None:
@@ -243,6 +249,7 @@ class ArduPilotBridge(AutopilotLink):
         self._peer = sender
         self.counters.connections += 1
         self._surroundings.inform(f'ArduPilot at {_text(sender)}')
+        self._frame.start()
         return True
 
     def _restart(self, simulation: Simulation, packet: ServoPacket) -> None:

@@ -26,6 +26,14 @@ LAYOUTS = {
         'HEARTBEAT', 50, 'I 5B',
         'custom_mode type autopilot base_mode system_status mavlink_version',
     ),
+    20: _layout(
+        'PARAM_REQUEST_READ', 214, 'h BB 16s',
+        'param_index target_system target_component param_id',
+    ),
+    22: _layout(
+        'PARAM_VALUE', 220, 'f HH 16s B',
+        'param_value param_count param_index param_id param_type',
+    ),
     65: _layout(
         'RC_CHANNELS', 118, 'I 18H BB',
         'time_boot_ms ' + ' '.join(f'chan{i}_raw' for i in range(1, 19)) + ' chancount rssi',
