@@ -175,6 +175,8 @@ setup(
         'ruamel.yaml>=0.19,<0.20',
         'pygeomag>=1.1,<2',
         'rich>=13.7,<16',
+        'rich-argparse>=1.7,<2',
+        'argcomplete>=3.1,<4',
     ],
     extras_require={
         'ros': ROS,

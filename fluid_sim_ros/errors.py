@@ -159,6 +159,8 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     written = {name.lower(): name for name in islice(known, 500) if len(name) <= MOST_TEXT}
     word = word[:MOST_TEXT].lower()
     similar = difflib.get_close_matches(word, written, n=1, cutoff=_SIMILAR)
+    # two letters that changed places weigh too much in short words
+    similar += [name for name in written if sorted(name) == sorted(word)]
     return f"; did you mean '{printable(written[similar[0]])}'?" if similar else ';'
 
 

@@ -3,6 +3,7 @@
 import argparse
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli.parser import above, at_least
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -42,7 +43,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         '--mapping', metavar='NAME', help='of config/autopilots, or a file (default by vehicle)'
     )
-    group.add_argument('--instance', type=int, metavar='N', help='number on this host (default 0)')
+    group.add_argument(
+        '--instance', type=at_least(0, int), metavar='N', help='number on this host (default 0)'
+    )
     group.add_argument(
         '--timeout', type=float, metavar='S',
         help='wall time that a silent one is waited for (default 60); simulated time stands still',
@@ -51,7 +54,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         '--on-timeout', choices=('hold', 'continue', 'stop'),
         help='then: wait on, go on with thrust at rest (default), or end the run',
     )  # fmt: skip
-    group.add_argument('--port', type=int, metavar='P', help='to listen on (default by instance)')
+    group.add_argument(
+        '--port', type=int, metavar='P', help='to listen on, 1 to 65535 (default by instance)'
+    )
     group.add_argument(
         '--address', metavar='A', help='to listen on (default 127.0.0.1: this host only)'
     )
@@ -69,7 +74,7 @@ def add_doctor_options(parser: argparse.ArgumentParser) -> None:
     """
     add_options(parser)
     parser.add_argument(
-        '--seconds', type=float, default=_SECONDS, metavar='S',
+        '--seconds', type=above(0), default=_SECONDS, metavar='S',
         help=f'wall time to look (default {_SECONDS:g})',
     )  # fmt: skip
 

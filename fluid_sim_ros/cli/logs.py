@@ -6,7 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli import replay as cli_replay
+from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_bar
 
 DAMAGED = 1
@@ -27,7 +29,8 @@ def add_parsers(commands: Any, show: Show) -> None:
 
     def add(name: str, text: str, function: Callable[..., int]) -> argparse.ArgumentParser:
         parser = add_command(commands, name, text, function, show)
-        parser.add_argument('log', metavar='LOG', help='.mcap file, or the folder of one')
+        log = parser.add_argument('log', metavar='LOG', help='.mcap file, or the folder of one')
+        completion.completed_by(log, completion.files('mcap'))
         return parser
 
     add('info', 'what is in a log, and whether it is sound', _info)
@@ -38,9 +41,12 @@ def add_parsers(commands: Any, show: Show) -> None:
     plot.add_argument('--out', metavar='FOLDER', type=Path, help='default: beside the log')
     film = add('render', 'make a film of a log: .mp4, .gif, or the last picture as .png', _render)
     film.add_argument('--out', metavar='FILE', type=Path, help='default: LOG with .mp4')
-    film.add_argument('--size', type=int, nargs=2, metavar=('W', 'H'), default=(640, 480))
-    film.add_argument('--fps', type=float, default=30.0, help='pictures per second (default 30)')
-    film.add_argument('--speed', type=float, default=1.0, help='times real time (default 1)')
+    film.add_argument(
+        '--size', type=above(0, int), nargs=2, metavar=('W', 'H'), default=(640, 480),
+        help='pixels (default 640 480)',
+    )  # fmt: skip
+    film.add_argument('--fps', type=above(0), default=30.0, help='pictures a second (default 30)')
+    film.add_argument('--speed', type=above(0), default=1.0, help='times real time (default 1)')
     film.add_argument(
         '--at', type=float, metavar='S', help='simulated time of a .png [s] (default the end)'
     )

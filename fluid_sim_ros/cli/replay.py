@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.shared import Show, fraction
 from fluid_sim_ros.errors import ConfigError
 
@@ -42,7 +43,7 @@ def add_options(replay: argparse.ArgumentParser) -> None:
         help='fly it again with a change, and draw both: integrator, timestep, fluid, wind, '
         'current (X,Y,Z), seed',
     )  # fmt: skip
-    replay.add_argument('--rate', type=float, default=1.0, help='times real time (default 1)')
+    replay.add_argument('--rate', type=above(0), default=1.0, help='times real time (default 1)')
     replay.add_argument('--loop', action='store_true', help='begin anew at the end')
     replay.add_argument(
         '--paused', action='store_true', help='begin paused; ~/pause and ~/step go on'

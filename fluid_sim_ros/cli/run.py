@@ -3,23 +3,24 @@
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import mujoco
-import numpy as np
 from rich.markup import escape
-from rich.progress import Progress
 from rich.table import Table
 
 from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_line
-from fluid_sim_ros.cli.shared import plain_lines, progress_bar
+from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
 from fluid_sim_ros.cli.signals import stopped_by_signals
+from fluid_sim_ros.cli.tables import table_of
+from fluid_sim_ros.cli.watcher import SAMPLE_PERIOD, Watcher
 from fluid_sim_ros.errors import ConfigError, listed, needed_for
 from fluid_sim_ros.loop.pacing import Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
 from fluid_sim_ros.loop.watchdogs import Watchdogs
-from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import duration_steps
@@ -27,64 +28,12 @@ from fluid_sim_ros.step_clock import duration_steps
 if TYPE_CHECKING:
     from fluid_sim_ros.recording.sink import RecordingSink
 
-#: Simulated time between two looks at the forces [s].
-_SAMPLE_PERIOD = 0.01
-#: Wall time between two updates of the progress bar [s].
-_SHOW_PERIOD = 0.1
-
-
-class Watcher:
-    """
-    A sink that keeps the largest fluid force on each vehicle, and shows the progress.
-
-    Parameters
-    ----------
-    simulation
-        What is watched.
-    progress
-        Where the progress is shown.
-
-    Attributes
-    ----------
-    period
-        Steps between two looks.
-    largest, largest_at
-        Largest fluid force per vehicle [N] in scene order, and its time [s], shape (n,).
-
-    """
-
-    def __init__(self, simulation: Simulation, progress: Progress) -> None:
-        self.period = max(1, round(_SAMPLE_PERIOD / simulation.timestep))
-        self.largest = np.zeros(len(simulation.vehicles))
-        self.largest_at = np.zeros(len(simulation.vehicles))
-        self._progress = progress
-        self._shown_at = 0.0
-
-    def write(self, simulation: Simulation) -> None:
-        """
-        Look at the forces at this step boundary.
-
-        Parameters
-        ----------
-        simulation
-            At a step boundary.
-
-        """
-        rows = simulation.observe(forces=True)
-        force = np.linalg.norm(rows[:, nat.TOTAL][:, :3], axis=1)
-        self.largest_at[force > self.largest] = simulation.time
-        np.maximum(self.largest, force, out=self.largest)
-        now = time.perf_counter()
-        if now - self._shown_at > _SHOW_PERIOD:
-            self._shown_at = now
-            for task in self._progress.task_ids:
-                self._progress.update(task, completed=simulation.time)
-
 
 def run_scene(
     scene: str | Path,
     *,
     duration: float | None = None,
+    keyframe: str | None = None,
     settings: RunSettings | None = None,
     wind: Sequence[float] | None = None,
     current: Sequence[float] | None = None,
@@ -105,6 +54,8 @@ def run_scene(
         Timestep, integrator, fluid and seed; default: the scene's own.
     duration
         Simulated time [s]; default: the scene's, or with an autopilot until it is interrupted.
+    keyframe
+        Of the model, to start at; default: the scene's.
     wind, current
         Velocity of the medium from the start [m/s], world axes (ENU).
     realtime
@@ -133,7 +84,10 @@ def run_scene(
         Wrong input, or ``DivergedError``.
 
     """
-    simulation = Simulation(scene, **(settings or RunSettings()).model_dump())
+    stated = Scene.load(scene)
+    if keyframe is not None:
+        stated = replace(stated, keyframe=keyframe)
+    simulation = Simulation(stated, **(settings or RunSettings()).model_dump())
     seconds = duration
     if seconds is None and autopilot is None:
         seconds = simulation.scene.duration
@@ -147,11 +101,12 @@ def run_scene(
 
     pacing = Pacing()
     if realtime:
-        pacing = RealTime(tick=max(1, round(_SAMPLE_PERIOD / simulation.timestep)))
-    with progress_bar('{task.completed:.1f} s') as progress:
+        pacing = RealTime(tick=max(1, round(SAMPLE_PERIOD / simulation.timestep)))
+    live = realtime or autopilot is not None
+    with status_line() if live else progress_bar('{task.completed:.1f} s') as progress:
         progress.add_task(simulation.scene.name, total=seconds)
         say = plain_lines(progress.console)
-        watcher = Watcher(simulation, progress)
+        watcher = Watcher(simulation, progress, live)
         watchdogs = Watchdogs(simulation, lambda line: say(f'warning: {line}'))
         sinks: list[Sink] = [watcher, watchdogs]
         recording = _recording(simulation, record, record_topics, allow_assets_from, sinks)
@@ -212,7 +167,7 @@ def summary_table(result: dict[str, Any]) -> Table:
 
     """
     caption = '\n'.join([
-        'position in the world (ENU), velocity along base_link (FLU)',
+        'position in the world (ENU), velocity along base_link (FLU), largest force',
         *(
             escape(f'{name}: terms: {listed(vehicle["terms"])}')
             for name, vehicle in result['vehicles'].items()
@@ -220,23 +175,24 @@ def summary_table(result: dict[str, Any]) -> Table:
     ])  # fmt: skip
     if 'autopilot' in result:
         caption = f'{counts_line(result["autopilot"])}\n{caption}'
-    table = Table(
-        'vehicle', r'position \[m]', r'velocity \[m/s]', 'largest fluid force',
-        title=(
-            f'{escape(result["scene"])}: {result["duration_s"]:g} s in {result["wall_s"]:.2f} s, '
-            f'real-time factor {result["real_time_factor"]:.4g}'
-        ),
-        caption=caption,
-    )  # fmt: skip
-    for name, vehicle in result['vehicles'].items():
-        force, at = vehicle['largest_fluid_force_n'], vehicle['largest_fluid_force_at_s']
-        table.add_row(
+    ended = f', ended by {result["interrupted"]}' if result['interrupted'] else ''
+    rows = [
+        (
             name,
             _vector(vehicle['position_w_m']),
             _vector(vehicle['velocity_b_m_s']),
-            f'{force:.4g} N at {at:.2f} s',
+            f'{vehicle["largest_fluid_force_n"]:.4g} N '
+            f'at {vehicle["largest_fluid_force_at_s"]:.2f} s',
         )
-    return table
+        for name, vehicle in result['vehicles'].items()
+    ]
+    return table_of(
+        ('vehicle', 'position [m]', 'velocity [m/s]', 'fluid force'),
+        rows,
+        title=f'{escape(result["scene"])}: {result["duration_s"]:g} s in '
+        f'{result["wall_s"]:.2f} s, real-time factor {result["real_time_factor"]:.4g}{ended}',
+        caption=caption,
+    )
 
 
 def _summary(simulation: Simulation, watcher: Watcher, wall: float) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.errors import ConfigError, needed_for
 
 if TYPE_CHECKING:
@@ -82,6 +83,47 @@ def plain_lines(console: 'Console') -> Callable[[str], None]:
         console.out(line, highlight=False)
 
     return show
+
+
+def add_scene(
+    parser: argparse.ArgumentParser, *, nargs: str | None = None, help: str = ''
+) -> None:
+    """
+    Add the positional argument ``scene``, which shells complete.
+
+    Parameters
+    ----------
+    parser
+        Of a subcommand.
+    nargs
+        As of argparse.
+    help
+        What it is for; default: what is allowed.
+
+    """
+    text = help or 'name (fluid_sim scenes), or an MJCF or YAML file'
+    action = parser.add_argument('scene', metavar='SCENE', nargs=nargs, help=text)
+    completion.completed_by(action, completion.scenes)
+
+
+def console() -> 'Console':
+    """Return the console that results are shown on."""
+    from rich.console import Console
+
+    return Console()
+
+
+def status_line() -> 'Progress':
+    """Return a line on standard error that is written anew, in place of a bar."""
+    from rich.console import Console
+    from rich.progress import Progress, TextColumn
+    from rich.table import Column
+
+    console = Console(stderr=True)
+    text = TextColumn(
+        '{task.description}', markup=False, table_column=Column(no_wrap=True, overflow='ellipsis')
+    )
+    return Progress(text, console=console, transient=True, disable=not console.is_terminal)
 
 
 def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':

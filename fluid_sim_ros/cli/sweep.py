@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.shared import Show, add_command, progress_bar, unbroken
 
 FAILED = 1
@@ -23,7 +24,8 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'run a scene many times with different numbers, into a Parquet table'
     parser = add_command(commands, 'sweep', text, _sweep, show)
-    parser.add_argument('file', metavar='FILE', type=Path, help='YAML file of the sweep')
+    file = parser.add_argument('file', metavar='FILE', type=Path, help='YAML file of the sweep')
+    completion.completed_by(file, completion.files('yaml', 'yml'))
     parser.add_argument(
         '--out', metavar='FOLDER', type=Path,
         help='results; one that was begun goes on (default out/sweep/ and the name of FILE)',
@@ -67,7 +69,8 @@ def _sweep(arguments: argparse.Namespace, show: Show) -> int:
 def _table(result: dict[str, Any]) -> Any:
     from rich.console import Group
     from rich.markup import escape
-    from rich.table import Table
+
+    from fluid_sim_ros.cli.tables import short, table_of
 
     lines = []
     check = result.get('against_cpu')
@@ -78,11 +81,17 @@ def _table(result: dict[str, Any]) -> Any:
             + ('all at rest' if share is None else f'at most {share:.2g} of a value apart')
         )
     ends = ', '.join(f'{count} {status}' for status, count in result['status'].items())
-    table = Table(
-        'column', 'min', 'median', 'max',
+    rows = [
+        (name, *(short(numbers[key]) for key in ('min', 'median', 'max')))
+        for name, numbers in result['columns'].items()
+    ]
+    constant = [f'{row[0]} {row[1]}' for row in rows if len({*row[1:]}) == 1]
+    if constant and len(constant) < len(rows):
+        rows = [row for row in rows if len({*row[1:]}) > 1]
+        lines.append(f'The same in every run: {", ".join(constant)}')
+    table = table_of(
+        ('column', 'min', 'median', 'max'), rows,
         title=f'{escape(result["scene"])}: {result["runs"]} runs ({ends}) in '
         f'{result["wall_s"]:.1f} s',
     )  # fmt: skip
-    for name, numbers in result['columns'].items():
-        table.add_row(name, *(f'{numbers[key]:.5g}' for key in ('min', 'median', 'max')))
     return Group(table, *map(escape, lines), 'Every row:', unbroken([result['table']]))

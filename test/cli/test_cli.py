@@ -165,7 +165,7 @@ def test_help_loads_no_physics():
         'from fluid_sim_ros import cli\n'
         'try:\n    cli.main(["run", "--help"])\n'
         'except SystemExit:\n    pass\n'
-        'heavy = {"mujoco", "numpy", "rclpy", "rich"} & set(sys.modules)\n'
+        'heavy = {"mujoco", "numpy", "rclpy", "pydantic"} & set(sys.modules)\n'
         'sys.exit(f"loaded: {heavy}" if heavy else 0)\n'
     )
     done = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True)

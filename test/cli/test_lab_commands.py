@@ -10,8 +10,8 @@ import sys
 import pytest
 from rich.console import Console
 
-from fluid_sim_ros.cli import chart
-from fluid_sim_ros.cli.lab_tables import advice_table, fronts_table
+from fluid_sim_ros.cli.lab import chart
+from fluid_sim_ros.cli.lab.tables import advice_table, fronts_table
 from fluid_sim_ros.cli.main import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.problems.catalogue import problem

@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.shared import (
     Show,
     add_command,
@@ -29,19 +30,23 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'map where integration is stable'
     stability = add_command(commands, 'stability', text, _stability, show)
-    stability.add_argument(
+    problem = stability.add_argument(
         'problem',
         metavar='PROBLEM',
         nargs='?',
         help='problem, or scene (name or file); none: list problems and axes',
     )
+    completion.completed_by(problem, completion.stability_problems)
     for axis in ('x', 'y'):
         stability.add_argument(f'--{axis}', metavar='AXIS', default='', help='default: its own')
         stability.add_argument(
             f'--{axis}-range', nargs=2, type=float, metavar=('LOW', 'HIGH'), default=()
         )
     stability.add_argument('--cells', type=int, default=24, help='per axis (default 24)')
-    stability.add_argument('--integrators', nargs='+', metavar='NAME', help='default: all five')
+    integrators = stability.add_argument(
+        '--integrators', nargs='+', metavar='NAME', help='default: all five'
+    )
+    completion.completed_by(integrators, completion.words(*completion.INTEGRATORS))
     stability.add_argument(
         '--set', nargs='+', metavar='AXIS=VALUE', default=[], dest='fixed',
         help='parameters that stay the same over the map',

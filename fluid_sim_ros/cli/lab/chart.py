@@ -7,7 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.cli.lab_tables import fronts_table
+from fluid_sim_ros.cli import completion
+from fluid_sim_ros.cli.lab.tables import fronts_table
+from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_of_parts
 from fluid_sim_ros.errors import ConfigError, FluidSimError
 
@@ -37,18 +39,25 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'chart speed against accuracy of a problem or scene'
     chart = add_command(commands, 'chart', text, _chart, show)
-    chart.add_argument(
+    problem = chart.add_argument(
         'problem', metavar='PROBLEM', nargs='*',
         help='problems, scenes (name or file); all: every problem; none: list them',
     )  # fmt: skip
+    completion.completed_by(problem, completion.problems)
     chart.add_argument('--out', metavar='FOLDER', type=Path, default=Path('out/chart'))
-    chart.add_argument('--integrators', nargs='+', metavar='NAME', help='default: all five')
+    integrators = chart.add_argument(
+        '--integrators', nargs='+', metavar='NAME', help='default: all five'
+    )
+    completion.completed_by(integrators, completion.words(*completion.INTEGRATORS))
     chart.add_argument('--timesteps', nargs='+', type=float, metavar='S', help='[s]')
     chart.add_argument(
         '--metric', default='pose', help='pose, position, attitude, velocity or regime'
     )
     chart.add_argument(
-        '--rounds', type=int, default=60, help='timed bursts of steps per curve (default 60)'
+        '--rounds',
+        type=above(0, int),
+        default=60,
+        help='timed bursts of steps per curve (default 60)',
     )
     chart.add_argument('--quick', action='store_true', help='four timesteps, ten bursts')
     chart.add_argument(

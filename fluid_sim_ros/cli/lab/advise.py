@@ -3,8 +3,8 @@
 import argparse
 from typing import Any
 
-from fluid_sim_ros.cli.lab_tables import advice_table
-from fluid_sim_ros.cli.shared import Show, add_command, fraction, progress_of_parts
+from fluid_sim_ros.cli.lab.tables import advice_table
+from fluid_sim_ros.cli.shared import Show, add_command, add_scene, fraction, progress_of_parts
 
 #: Exit code where nothing meets the tolerance.
 NOTHING_FITS = 1
@@ -24,7 +24,7 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'find the cheapest fluid model, integrator and timestep for a scene'
     advise = add_command(commands, 'advise', text, _advise, show)
-    advise.add_argument('scene', metavar='SCENE', help='name (fluid_sim scenes) or file')
+    add_scene(advise)
     advise.add_argument(
         '--tolerance', type=fraction, required=True, metavar='X',
         help='largest relative error against the converged run of the full model (0.01 or 1%%)',
