@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 #: What the doctor flies while it looks, and for how long [s].
 _SCENE, _SECONDS = 'x500_ground', 10.0
 #: Options that have the names of ``AutopilotOptions``.
-_OPTIONS = ('vehicle', 'mapping', 'instance', 'port', 'address', 'timeout', 'on_timeout')
+_OPTIONS = ('vehicle', 'mapping', 'instance', 'port', 'address', 'timeout', 'on_timeout', 'earth')
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -39,6 +39,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         '--param', metavar='NAME=VALUE', dest='parameters', action='append', default=[],
         help="set it in that program, also in place of the mapping's; may be repeated",
     )  # fmt: skip
+    group.add_argument(
+        '--home', type=float, nargs=4, metavar=('LAT', 'LON', 'ALT', 'HEADING'), default=[],
+        help="where it starts [deg] [deg] [m] [deg] (default the scene's, heading as it begins)",
+    )  # fmt: skip
+    group.add_argument(
+        '--earth',
+        choices=('wgs84', 'sphere'),
+        help='of what PX4 gets: wgs84 (default), or its own sphere',
+    )
     group.add_argument('--vehicle', metavar='NAME', help='that it flies (default the only one)')
     group.add_argument(
         '--mapping', metavar='NAME', help='of config/autopilots, or a file (default by vehicle)'
@@ -102,8 +111,10 @@ def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
     if not chosen.get('timeout', 1.0) > 0:
         raise ConfigError(f'--timeout {chosen["timeout"]:g}: must be above 0')
     if arguments.autopilot is None:
-        if chosen or arguments.program:
-            option = 'exec' if arguments.program else next(iter(chosen)).replace('_', '-')
+        given = [*(['exec'] if arguments.program else []), *chosen]
+        given += ['home'] if arguments.home else []
+        if given:
+            option = given[0].replace('_', '-')
             raise ConfigError(f'--{option} needs --autopilot')
         return None
     # heavy: only when it is needed
@@ -112,7 +123,9 @@ def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
     from fluid_sim_ros.mavlink.program.parameters import parse_parameters
 
     options = AutopilotOptions(arguments.autopilot, program=bool(arguments.program), **chosen)
-    return AutopilotRun(options, arguments.program or '', parse_parameters(arguments.parameters))
+    return AutopilotRun(
+        options, arguments.program or '', parse_parameters(arguments.parameters), arguments.home
+    )
 
 
 def autopilot_table(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':

@@ -1,11 +1,12 @@
 """A run without ROS that an autopilot flies: bridge, program, reports, log."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli.home import turn_to
 from fluid_sim_ros.errors import AutopilotError
 from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
 from fluid_sim_ros.loop.autopilot_port import (
@@ -41,12 +42,16 @@ class AutopilotRun:
         Command that starts its program; empty: the user does.
     parameters
         Of the autopilot, value by name, in place of those of the mapping.
+    home
+        Latitude and longitude [deg], altitude [m] and heading [deg] of the start; empty: the
+        scene's, and as it begins.
 
     """
 
     options: AutopilotOptions
     program: str = ''
     parameters: Mapping[str, float] = field(default_factory=dict)
+    home: Sequence[float] = ()
 
 
 class Flight:
@@ -131,6 +136,7 @@ class Flight:
 
     def _start(self, run: AutopilotRun, runner: Runner, stack: ExitStack) -> None:
         from fluid_sim_ros.mavlink.mapping import load_mapping
+        from fluid_sim_ros.mavlink.program.command_line import HEADING_EAST
         from fluid_sim_ros.mavlink.program.parameters import needed_parameters, parameters_line
         from fluid_sim_ros.mavlink.program.program import Program
 
@@ -139,7 +145,9 @@ class Flight:
         parameters = needed_parameters(file, run.parameters)
         if parameters:
             self._say(f'parameters given to the program: {parameters_line(parameters)}')
-        program = Program(run.program, options, file, home, parameters, self._say)
+        heading = run.home[3] if run.home else HEADING_EAST
+        place = (home.latitude, home.longitude, home.altitude, heading)
+        program = Program(run.program, options, file, place, parameters, self._say)
         stack.callback(program.close)
         before = runner.housekeeping
 
@@ -151,6 +159,8 @@ class Flight:
 
     def _reset(self) -> None:
         self._simulation.reset()
+        if self._run.home:
+            turn_to(self._simulation, self._run.home[3])
         if self._log is not None:
             self._log.next_segment()
         if self._runner is not None:

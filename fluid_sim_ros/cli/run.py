@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_line
+from fluid_sim_ros.cli.home import scene_at, turn_to
 from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
 from fluid_sim_ros.cli.signals import stopped_by_signals
 from fluid_sim_ros.cli.tables import table_of
@@ -87,7 +88,12 @@ def run_scene(
     stated = Scene.load(scene)
     if keyframe is not None:
         stated = replace(stated, keyframe=keyframe)
+    home = () if autopilot is None else autopilot.home
+    if home:
+        stated = scene_at(stated, home)
     simulation = Simulation(stated, **(settings or RunSettings()).model_dump())
+    if home:
+        turn_to(simulation, home[3])
     seconds = duration
     if seconds is None and autopilot is None:
         seconds = simulation.scene.duration

@@ -18,6 +18,8 @@ from fluid_sim_ros.simulation import Simulation
 _PART = 'fluid_sim_ros.mavlink.bridge'
 
 PROTOCOLS = ('px4', 'ardupilot')
+#: What geodetic places are computed on: the ellipsoid of satellite navigation, or PX4's sphere.
+EARTHS = ('wgs84', 'sphere')
 #: What follows when an autopilot that has answered is silent for too long.
 TIMEOUT_RULES = ('hold', 'continue', 'stop')
 LOOPBACK = '127.0.0.1'
@@ -52,6 +54,8 @@ class AutopilotOptions:
         with AutopilotError.
     sticks_timeout
         Wall time without moved sticks after which the radio control is lost [s]; 0: never.
+    earth
+        One of ``EARTHS``: what PX4's places are computed on.
 
     """
 
@@ -65,6 +69,7 @@ class AutopilotOptions:
     timeout: float = 60.0
     on_timeout: str = 'continue'
     sticks_timeout: float = 0.5
+    earth: str = 'wgs84'
 
 
 @dataclass(frozen=True)

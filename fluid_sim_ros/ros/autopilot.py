@@ -113,7 +113,7 @@ def start_autopilot(
             name: settings[f'autopilot.{name}']
             for name in (
                 'protocol', 'vehicle', 'mapping', 'instance', 'port', 'address', 'timeout',
-                'on_timeout', 'sticks_timeout',
+                'on_timeout', 'sticks_timeout', 'earth',
             )
         }
     )  # fmt: skip

@@ -16,12 +16,14 @@ from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.mavlink.program.command_line import command_line
 from fluid_sim_ros.mavlink.program.program import Program
 from fluid_sim_ros.recording.reader import open_log
-from fluid_sim_ros.schema.scene import Home
 from test.support.autopilots.autopilot_peers import free_port, waited
 from test.support.paths import ROOT
 
 ARDUPILOT = f'env PYTHONPATH={ROOT} {sys.executable} -m test.support.autopilots.ardupilot_program'
 PX4 = f'env PYTHONPATH={ROOT} {sys.executable} -m test.support.autopilots.px4_program'
+
+
+HOME = (47.4, 8.5, 0.0, 90)
 
 
 def alive(pid: int) -> bool:
@@ -34,7 +36,7 @@ def alive(pid: int) -> bool:
 
 def started(command, show, protocol='px4', vehicle='x500', **options):
     file, _ = load_mapping(protocol, vehicle)
-    return Program(command, AutopilotOptions(protocol, **options), file, Home(), {}, show)
+    return Program(command, AutopilotOptions(protocol, **options), file, HOME, {}, show)
 
 
 # ---- how it is started ---------------------------------------------------------------------
@@ -42,11 +44,11 @@ def started(command, show, protocol='px4', vehicle='x500', **options):
 
 def test_command_lines(tmp_path):
     options = AutopilotOptions('px4', instance=2)
-    command = command_line('bin/px4 -w "a b"', options, {}, Home(), tmp_path)
+    command = command_line('bin/px4 -w "a b"', options, {}, HOME, tmp_path)
     assert command == ['bin/px4', '-w', 'a b', '-d', '-i', '2']
     sub = {'FRAME_CONFIG': 1.0, 'PSC_D_ACC_P': 0.2}
     options = AutopilotOptions('ardupilot', instance=1)
-    home = Home(latitude=1.5, longitude=-2.0)
+    home = (1.5, -2.0, 0.0, 90)
     command = command_line('./ardusub', options, sub, home, tmp_path)
     assert command == [
         './ardusub', '--model', 'JSON:127.0.0.1', '--home', '1.5,-2.0,0.0,90', '--speedup', '100',

@@ -1,17 +1,16 @@
 """What starts an autopilot's program: the user's command, and what the bridge knows better."""
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
 from fluid_sim_ros.mavlink.program.parameters import with_defaults
-from fluid_sim_ros.schema.scene import Home
 
 #: So fast that ArduPilot never waits for its own clock: the bridge sets the pace.
 _SPEEDUP = 100
-_HEADING_EAST = 90  # [deg]: the identity attitude
+HEADING_EAST = 90  # [deg]: the identity attitude
 #: ArduPilot's first serial port, for a ground station: by default it waits for one ("tcp:0:wait")
 #: before it sends anything.
 _SERIAL0, _WITHOUT_WAITING = ('--serial0', '--uartA'), 'tcp:0'
@@ -21,7 +20,7 @@ def command_line(
     command: str,
     options: AutopilotOptions,
     parameters: Mapping[str, float],
-    home: Home,
+    home: Sequence[float],
     folder: Path,
 ) -> list[str]:
     """
@@ -36,7 +35,7 @@ def command_line(
     parameters
         Value by name; PX4 gets them otherwise.
     home
-        Where the vehicle starts [deg], [deg], [m].
+        Latitude and longitude [deg], altitude [m], heading [deg].
     folder
         Where the file of parameters is written.
 
@@ -59,7 +58,7 @@ def command_line(
         raise ConfigError('--exec: names no program')
     if options.protocol == 'px4':
         return [*arguments, '-d', '-i', str(options.instance)]
-    place = f'{home.latitude},{home.longitude},{home.altitude},{_HEADING_EAST}'
+    place = ','.join(map(str, home))
     added = ['--model', f'JSON:{options.address}', '--home', place,
              '--speedup', str(_SPEEDUP), '-I', str(options.instance)]  # fmt: skip
     if options.port:

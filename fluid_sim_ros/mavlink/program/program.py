@@ -5,7 +5,7 @@ import signal
 import subprocess
 import tempfile
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -15,7 +15,6 @@ from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.program.command_line import command_line
 from fluid_sim_ros.mavlink.program.family import Guard, die_with_parent, ended, family_of, kill
 from fluid_sim_ros.mavlink.program.parameters import px4_environment
-from fluid_sim_ros.schema.scene import Home
 
 #: Longest line of the log that is shown [bytes]; the rest follows as another.
 _LONGEST_LINE = 1000
@@ -33,8 +32,10 @@ class Program:
     ----------
     command
         What the user would type, without what the bridge knows better.
-    options, file, home
-        Which instance of what, and where.
+    options, file
+        Which instance of what.
+    home
+        Latitude and longitude [deg], altitude [m], heading [deg].
     parameters
         What it is set to: value by name.
     show
@@ -52,7 +53,7 @@ class Program:
         command: str,
         options: AutopilotOptions,
         file: AutopilotFile,
-        home: Home,
+        home: Sequence[float],
         parameters: Mapping[str, float],
         show: Callable[[str], None],
     ) -> None:

@@ -71,7 +71,7 @@ class Px4Bridge(AutopilotLink):
             )
         super().__init__(simulation, options, surroundings, actuators, file)
         self._period = steps.numerator
-        self._state = HilState(simulation, options.vehicle, file, self._sticks)
+        self._state = HilState(simulation, options.vehicle, file, self._sticks, options.earth)
         self._writer, self._reader = HilWriter(), HilReader()
         self._server = TcpServer(options.address, options.port or FIRST_PORT + options.instance)
         self.port = self._server.port

@@ -10,6 +10,7 @@ from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
 from fluid_sim_ros.mavlink.px4.hil_aids import OpticalFlow, distance_sensor
 from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter, SensorReadings
+from fluid_sim_ros.mavlink.px4.sphere import SphereFrame
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
 from fluid_sim_ros.physics.environment.atmosphere import (
@@ -60,6 +61,8 @@ class HilState:
         The mapping.
     sticks
         Of a radio control.
+    earth
+        As of ``AutopilotOptions``.
 
     Raises
     ------
@@ -69,12 +72,18 @@ class HilState:
     """
 
     def __init__(
-        self, simulation: Simulation, vehicle: str, file: AutopilotFile, sticks: Sticks
+        self,
+        simulation: Simulation,
+        vehicle: str,
+        file: AutopilotFile,
+        sticks: Sticks,
+        earth: str = 'wgs84',
     ) -> None:
         self._vision, self._sticks = file.vision, sticks
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home
-        self._frame, self._altitude = LocalFrame(home), home.altitude
+        self._frame = SphereFrame(home) if earth == 'sphere' else LocalFrame(home)
+        self._altitude = home.altitude
         latency = Fraction(math.ceil(exact(file.gnss_delay) * RATE), RATE)
         self._moved = float(latency) - file.gnss_delay  # [s] between two exchanges
         config = _for_px4(simulation.vehicle(vehicle).sensors, file.vision, latency)

@@ -8,7 +8,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.loop.autopilot_port import LOOPBACK, PROTOCOLS, TIMEOUT_RULES
+from fluid_sim_ros.loop.autopilot_port import EARTHS, LOOPBACK, PROTOCOLS, TIMEOUT_RULES
 from fluid_sim_ros.messages import commands, state_topics
 from fluid_sim_ros.ros.parameters import table as parameter_table
 from fluid_sim_ros.ros.parameters.table import Declared
@@ -128,6 +128,9 @@ TABLE: dict[str, Declared] = {
         '[s] wall time without a message on <v>/cmd/sticks after which the radio is lost; 0 = off',
         low=0,
         high=3600,
+    ),
+    'autopilot.earth': Declared(
+        'wgs84', "what places that PX4 gets are computed on; sphere = PX4's own", choices=EARTHS
     ),
     'markers.rate': Declared(
         state_topics.DEFAULTS['markers.rate'], '[Hz] at most, of simulated and of wall time',
