@@ -15,6 +15,7 @@ from fluid_sim_ros.mavlink.program.parameters import (
 )
 from fluid_sim_ros.resources import config_folder
 from test.support.autopilots.autopilot_peers import BridgedFlight, free_port
+from test.support.autopilots.px4_stand_in import Px4
 from test.support.paths import ROOT
 
 MAPPINGS = sorted(path.stem for path in (config_folder() / 'autopilots').glob('*.yaml'))
@@ -58,6 +59,12 @@ def test_sticks_of_a_mapping_bring_the_parameters_without_which_px4_ignores_them
         'RC_CHAN_CNT': 5, 'COM_RC_IN_MODE': 0, 'RC_MAP_ROLL': 1, 'RC_MAP_PITCH': 2,
         'RC_MAP_THROTTLE': 3, 'RC_MAP_YAW': 5, 'MPC_THR_HOVER': 0.77,
     }  # fmt: skip
+    with BridgedFlight('x500_ground', 'px4', mapping=str(path)).running() as flight:
+        px4 = Px4(flight.port, silent=0)
+        for _ in range(30):
+            px4.exchange([0.0] * 4)
+    assert px4.sticks(needed) == [1500, 1500, 1000, 1500, 1900]
+    assert px4.sticks({'COM_RC_IN_MODE': 0}) == []  # as PX4 is without them
 
 
 def test_a_number_alone_is_a_parameter(tmp_path):

@@ -4,10 +4,12 @@ import math
 
 import pytest
 
+from fluid_sim_ros.mavlink.mapping import load_mapping
 from test.support.autopilots.ardupilot_stand_in import (
     VECTORED,
     VECTORED_6DOF,
     Copter,
+    DepthSensor,
     Link,
     Plane,
     Submarine,
@@ -65,3 +67,32 @@ def test_a_submarine_dives_turns_and_goes_ahead(scene, factors):
         north, east = (b - a for a, b in zip(before[:2], state['position'][:2], strict=True))
         assert math.atan2(east, north) == pytest.approx(state['attitude'][2], abs=0.2)
         assert math.hypot(north, east) > 0.3
+
+
+@pytest.mark.parametrize('vehicle', ['bluerov2', 'bluerov2_heavy'])
+def test_from_the_surface_a_submarine_holds_its_depth(vehicle):
+    file, _ = load_mapping('ardupilot', vehicle)
+    sensor = DepthSensor(file.parameters['SIM_BARO_RND'].value)
+    factors = VECTORED if vehicle == 'bluerov2' else VECTORED_6DOF
+    with BridgedFlight(f'{vehicle}_surface', 'ardupilot').running() as flight:
+        link, submarine = Link(flight.port), Submarine(factors, 3.0, math.pi / 2)
+        state, depths = link.exchange(padded([1500] * 8)), []
+        assert abs(state['position'][2]) < 0.1
+        for _ in range(8000):
+            depths.append(state['position'][2])
+            state['position'][2] = sensor.read(depths[-1])
+            state = link.exchange(submarine.pulses(state))
+    assert depths[4000:] == pytest.approx([3.0] * 4000, abs=0.3)
+
+
+def test_from_5_m_and_with_the_default_noise_it_rises():
+    sensor = DepthSensor(0.2)
+    with BridgedFlight('bluerov2', 'ardupilot').running() as flight:
+        link = Link(flight.port)
+        state = link.exchange(padded([1500] * 8))
+        submarine = Submarine(VECTORED, 0.0, math.pi / 2)  # it holds what it takes for its depth
+        for _ in range(8000):
+            down = state['position'][2]
+            state['position'][2] = sensor.read(down)
+            state = link.exchange(submarine.pulses(state))
+    assert down < 3.0

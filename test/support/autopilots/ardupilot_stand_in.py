@@ -7,6 +7,7 @@ factors of ArduPilot's own tables (AP_MotorsMatrix, AP_Motors6DOF).
 
 import contextlib
 import math
+import random
 import socket
 import struct
 import time
@@ -126,6 +127,23 @@ class Plane:
         rudder = clipped(0.8 * math.remainder(math.pi / 2 - yaw, math.tau) - 0.3 * r)
         sticks = [round(1500 + 400 * share) for share in (aileron, elevator, rudder)]
         return padded([sticks[0], sticks[1], 1900, sticks[2]])
+
+
+class DepthSensor:
+    """
+    ArduSub's depth: 0 where it boots, and again wherever it would be above the surface.
+
+    So noise moves the zero up, never down, while the vehicle is near it.
+    """
+
+    def __init__(self, noise: float) -> None:
+        self.noise, self.zero = noise, None
+        self.rng = random.Random(1)
+
+    def read(self, down: float) -> float:
+        value = down + self.rng.gauss(0.0, self.noise)
+        self.zero = down if self.zero is None else min(self.zero, value)
+        return value - self.zero
 
 
 class Submarine:

@@ -129,6 +129,15 @@ class Px4:
             self.answer(message['time_usec'], controls, armed)
         return message
 
+    def sticks(self, parameters: dict[str, float]) -> list[int]:
+        """Return the channels that PX4 looks at with its parameters; none is no radio."""
+        message = self.latest.get('RC_CHANNELS')
+        if message is None or not parameters.get('RC_CHAN_CNT', 0) > 0:
+            return []
+        if parameters.get('COM_RC_IN_MODE', 1) != 0:  # 1: a joystick of the ground station only
+            return []
+        return [message[f'chan{i}_raw'] for i in range(1, int(parameters['RC_CHAN_CNT']) + 1)]
+
     def nothing_comes(self, seconds: float) -> bool:
         return not select.select([self.socket], [], [], seconds)[0]
 
