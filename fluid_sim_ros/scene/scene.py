@@ -26,6 +26,8 @@ from fluid_sim_ros.schema.waves import Waves
 from fluid_sim_ros.schema.weather import CurrentModel, WindModel
 
 _AS_STATED = RunSettings()
+#: Endings of the files that MuJoCo reads as models.
+_MODELS = ('.xml', '.mjcf', '.urdf', '.mjz', '.zip')
 
 
 @dataclass(frozen=True)
@@ -122,6 +124,10 @@ class Scene:
         if path.suffix in ('.xml', '.mjcf') or path.is_file():
             if not path.is_file():
                 raise ConfigError(f'{path}: no such MJCF file')
+            if path.suffix.lower() not in _MODELS:  # MuJoCo would warn, and write a file of it
+                raise ConfigError(
+                    f'{path}: is no model; allowed: {listed(_MODELS)}, or a scene .yaml'
+                )
             return cls(name=path.stem, model_path=path.resolve())
         if str(scene) not in scene_names():
             raise ConfigError(

@@ -180,3 +180,16 @@ def test_fluid_rungs_switch_the_models(model):
     assert scene.compile(RunSettings(fluid='none')).model.opt.density == 0
     assert not scene.compile(RunSettings(fluid='inertia')).model.geom_fluid[:, 0].any()
     assert scene.compile(RunSettings(fluid='ellipsoid')).model.geom_fluid[0, 0] == 1
+
+
+@pytest.mark.parametrize('name', ['model', 'model.txt', 'model.obj', 'model.json', 'picture.png'])
+def test_a_file_that_is_no_model_leaves_no_log_of_mujoco(tmp_path, monkeypatch, capfd, name):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / name).write_text('hello')
+    with pytest.raises(
+        ConfigError, match=r'is no model; allowed: \.xml, \.mjcf, \.urdf'
+    ) as caught:
+        Scene.load(name).compile()
+    assert str(caught.value).startswith(f'{name}: ')
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    assert capfd.readouterr() == ('', '')
