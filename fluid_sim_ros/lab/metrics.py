@@ -1,4 +1,4 @@
-"""Relative errors of a scene's motion: what a tolerance of, say, 1 % is a percentage of."""
+"""Relative errors of a motion: the quantities that a tolerance of 1 % refers to."""
 
 from collections.abc import Callable
 
@@ -15,7 +15,7 @@ Metric = Callable[[Array, Array], float]  # of states and reference states, shap
 METRICS = ('pose', 'position', 'attitude', 'velocity', 'regime')
 #: A turn below this is not measured against its own size [rad].
 _LEAST_TURN = 0.1
-#: Nor is a speed [m/s].
+#: A speed below this is not measured against its own size [m/s].
 _LEAST_SPEED = 1e-3
 
 

@@ -11,15 +11,15 @@ from fluid_sim_ros.physics.arrays import Array
 
 #: Added to every velocity at the start to see whether it grows [m/s], [rad/s].
 NUDGE = 1e-9
-#: A motion is chaotic for us when its nudge grows by e within a fifth of the run.
+#: A motion counts as chaotic when a nudge grows by e within this share of the run.
 LYAPUNOV_SHARE = 0.2
-#: What moves so many times as fast as it should is unstable.
+#: A motion is unstable when something moves this many times as fast as it should.
 FASTER = 2.0
-#: A body's own largest speed counts as at least this share of the largest of all bodies ...
+#: The largest speed of a body counts as at least this share of the largest of all bodies ...
 _SHARE = 0.1
 #: ... and as at least so much [m/s], [rad/s].
 _LEAST_SPEED, _LEAST_RATE = 1e-3, 1e-2
-#: No regular motion makes so much of a nudge, however soon it did.
+#: A nudge that grows by more than this factor means chaos, however early it grows.
 SURE_GROWTH = 1e6
 
 
@@ -184,7 +184,7 @@ def runs_away(states: Array, reference: Array) -> bool:
 
 
 class Regime(NamedTuple):
-    """What stays comparable of a motion that forgets its start."""
+    """The numbers of a chaotic motion that can still be compared."""
 
     descent: float  # mean vertical speed over the second half [m/s]
     frequency: float  # of the vertical velocity, rms(dv/dt)/(2 pi rms(v)) (Rice 1945) [Hz]

@@ -1,4 +1,4 @@
-"""Runs that do not depend on each other, one per core; stepping releases Python's lock."""
+"""Independent runs in threads, one per core; stepping releases Python's lock."""
 
 import os
 from collections.abc import Callable, Iterable

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-#: Takes what is being done, how far it is, and of how many.
+#: Arguments: what is being done, how far it is, and of how many.
 Report = Callable[[str, int, int], None]
 
 

@@ -18,8 +18,8 @@ from fluid_sim_ros.recording.writing.segments import create_segment
 from fluid_sim_ros.recording.writing.writer_process import WriterProcess
 from fluid_sim_ros.simulation import Simulation
 
-#: What is kept is sent when it is this large [bytes] or this old [s]; smaller portions would wake
-#: the writer more often than it has to be.
+#: Messages are sent when they are this many [bytes] or this old [s]; smaller portions would wake
+#: the writer too often.
 _PORTION, _AGE = 1 << 18, 0.02
 
 

@@ -24,11 +24,11 @@ from fluid_sim_ros.sweep.compiled_run import (
 from fluid_sim_ros.sweep.hold_controller import hold_controller
 from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, Value
 
-#: Most runs of a portion; as many are lost, per worker, with a process that is killed.
+#: Largest number of runs in a portion: what a worker that is killed loses.
 LARGEST_PORTION = 128
 #: Compiled simulations that one thread keeps.
 _KEPT = 4
-#: Tries of a run that ends in an error that is none of ours.
+#: How often a run is tried that ends in an unexpected error.
 _TRIES = 2
 _UNEXPECTED = (RuntimeError, ArithmeticError, LookupError, ValueError, TypeError, MemoryError)
 
@@ -108,7 +108,7 @@ class CaseRunner:
         return rows + self._end_batch(batch)
 
     def _end_batch(self, batch: '_Batch') -> list[Row]:
-        """Fly the runs that were taken up together; where that fails, one by one."""
+        """Make the collected runs in one call; where that fails, one by one."""
         begun = [int(row['run']) for row in batch.begun]
         try:
             return batch.run()
@@ -217,7 +217,7 @@ class CaseRunner:
 
 
 class _Batch:
-    """Undisturbed runs of one model, taken up one after the other and flown in one call."""
+    """Undisturbed runs of one model, collected and then made in one call."""
 
     def __init__(self) -> None:
         self._ready: CompiledRun | None = None
@@ -229,14 +229,14 @@ class _Batch:
         return fits and len(self.begun) < LARGEST_PORTION
 
     def take(self, ready: CompiledRun, begun: Row) -> None:
-        """Take up the run that the simulation stands at the start of."""
+        """Add the run whose start is the present state of the simulation."""
         assert ready.many is not None
         ready.many.take()
         self._ready = ready
         self.begun.append(begun)
 
     def run(self) -> list[Row]:
-        """Fly them; return their rows and be empty."""
+        """Run all of them in one call; return their rows, and begin anew."""
         ready, begun = self._ready, self.begun
         self._ready, self.begun = None, []
         if ready is None or ready.many is None:

@@ -11,7 +11,7 @@ from fluid_sim_ros.sweep.compiled_run import COLUMNS
 
 #: Runs that are flown again.
 _CHECKED = 8
-#: Below this (m, m/s, rad/s) a vehicle is at rest, and a share of rounding errors says nothing.
+#: Below this [m], [m/s], [rad/s] a vehicle is at rest, and a relative difference says nothing.
 _AT_REST = 1e-3
 _KINDS = {
     'position': ('x_m', 'y_m', 'z_m', 'farthest_m'),

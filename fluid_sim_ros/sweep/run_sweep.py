@@ -1,4 +1,4 @@
-"""Takes a sweep to its end: what is left to fly, by whom, and what comes out."""
+"""Runs a sweep to its end: cuts what is left into portions, and collects the rows."""
 
 import os
 import time
@@ -16,10 +16,10 @@ from fluid_sim_ros.sweep.workers import on_ray, on_threads
 
 #: Most steps of a portion of more than one run: some tenths of a second of work.
 _MOST_STEPS = 100_000
-#: A portion is this part of a worker's fair share of what is left, so that all end together.
+#: A portion is this part of a worker's share of what is left, so that all workers end together.
 _PARTS_OF_SHARE = 4
 
-#: Told of each finished portion: runs done so far, and runs in all.
+#: Called after each finished portion, with the runs done so far and the number of all runs.
 Report = Callable[[int, int], None]
 
 

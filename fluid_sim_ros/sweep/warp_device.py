@@ -169,7 +169,7 @@ class WarpWorlds:
         return flags
 
     def _capture(self) -> None:
-        """Record the launches of one step, which then start as one: they outnumber the work."""
+        """Record the kernel launches of one step, so that they start as one: faster than each."""
         self._device.mjw.step(self._model, self._data)  # kernels are compiled
         with self._device.wp.ScopedCapture() as capture:
             self._device.mjw.step(self._model, self._data)

@@ -170,7 +170,7 @@ class WarpRuns:
 
 
 def _watched(ready: CompiledRun, worlds: WarpWorlds, rows: list[Row], qpos: Array) -> list[Row]:
-    """Step the worlds to the end under watch; a world that blows up concerns its row alone."""
+    """Step the worlds to the end; a world that blows up ends its own row only."""
     simulation, count = ready.simulation, len(rows)
     clock = StepClock(simulation.timestep)
     at_start = motion_of(simulation, qpos, np.zeros((count, simulation.model.nv)))

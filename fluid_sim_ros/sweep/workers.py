@@ -1,4 +1,4 @@
-"""Who flies the runs of a sweep: threads of this machine, or workers of Ray."""
+"""Runs the portions of a sweep: on threads of this machine, or on workers of Ray."""
 
 import logging
 import socket

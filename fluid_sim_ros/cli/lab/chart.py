@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _QUICK_COUNT, _QUICK_LARGEST, _QUICK_ROUNDS = 4, 0.02, 10
 #: Exit code where some of the problems failed.
 FAILED = 2
-#: What one problem may end in without taking the others with it.
+#: Errors of one problem that do not end the others.
 _CAUGHT = (FluidSimError, RuntimeError, ArithmeticError, LookupError, ValueError, TypeError)
 
 
@@ -87,7 +87,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
             try:
                 result = make()
                 stem = folder / result['problem']
-                # as they come: what fails later takes nothing from those before
+                # written at once: a later failure does not lose it
                 files += [
                     results.save(result, stem.with_suffix('.json')),
                     results.write_csv(result, stem.with_suffix('.csv')),

@@ -25,10 +25,10 @@ from fluid_sim_ros.step_clock import duration_steps
 #: Bursts per curve, one a round.
 ROUNDS = 60
 _ORDER_SEED = 1
-#: A burst takes about so long [s]: well above what the clock and a cold cache add.
+#: Aimed length of a burst [s]: far above what the clock and a cold cache add.
 _BURST = 2e-3
 _FEWEST, _MOST = 20, 500  # steps of a burst
-#: Simulations are built anew so often, since where their memory lies has a part in their speed.
+#: Simulations are rebuilt this many times, because their speed depends on where their memory lies.
 _BUILDS = 3
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-#: The tie factor of a front lies in this range; a timestep's neighbours are 2 or 2.5 apart.
+#: The tie factor of a front lies in this range; neighbouring timesteps are 2 or 2.5 apart.
 FRONT_RANGE = (1.1, 2.0)
 #: A factor is kept from one measurement of a chart to the next while no ratio is so near it.
 KEPT_CLEAR = 1.03
@@ -119,7 +119,7 @@ def mark_front(points: Sequence[dict[str, Any]], by: str, before: float | None =
     rows = [(judged(point, by), float(point['cpu_us_per_s'])) for point in points]
     dearer = [_price_of_more(rows, place) for place in range(len(rows))]
     saved = [_saved_by_equal(rows, place) for place in range(len(rows))]
-    # a point that something better costs hardly more than is off the front whatever the factor
+    # if a more accurate point costs hardly more, this one is off the front for any factor
     asked = [
         ratio
         for price, saving in zip(dearer, saved, strict=True)

@@ -15,7 +15,7 @@ from fluid_sim_ros.lab.drawing.colors import INTEGRATOR_COLORS, rung_colors
 from fluid_sim_ros.lab.drawing.style import MARKERS, STYLE, save_figure
 
 _REAL_TIME = 1e6  # [us per simulated second]
-#: What is drawn upward; the errors at the end are those of charts of earlier releases.
+#: Labels of the vertical axis; errors at the end belong to charts of earlier releases.
 _UNITS = {
     'pose': 'pose error, largest over the run [-]',
     'position': 'position error, largest over the run [-]',
@@ -26,7 +26,7 @@ _UNITS = {
     'regime': 'error of mean descent or frequency [-]',
 }
 _LEAST = 1e-16
-#: A slope guide is drawn so far below its curve, as a factor.
+#: Distance of a slope guide below its curve, as a factor.
 _BELOW = 0.2
 #: Where errors span more than this, the legend finds some of its room between them.
 _ROOMY = 1e10

@@ -19,7 +19,7 @@ from fluid_sim_ros.lab.stability.limits import bisect
 
 #: How well the reference should be known, as a tolerance of the advisor's.
 _TOLERANCE = 0.05
-#: Timesteps begin so far below the largest one, where no range is given.
+#: Where no range is given, timesteps begin this factor below the largest one.
 _DECADES = 100.0
 
 

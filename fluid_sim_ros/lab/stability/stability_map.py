@@ -145,7 +145,7 @@ def run_map(
         if key not in cells
     ]
     path.parent.mkdir(parents=True, exist_ok=True)
-    # anew, in one move: a line that was cut off must not swallow the next one
+    # the file is replaced in one move: a line that was cut off must not merge with the next one
     begun = path.with_suffix('.begun')
     lines = [dict(head), *(_row(key, cells[key]) for key in cells)]
     begun.write_text(''.join(json.dumps(line) + '\n' for line in lines), encoding='utf-8')

@@ -22,7 +22,7 @@ from fluid_sim_ros.recording.writing.mcap_file import McapFile
 
 #: Size at which a chunk is closed [bytes].
 CHUNK_SIZE = 1 << 20
-#: How far the simulator goes before [nice].
+#: Niceness of the writer: the simulator goes first.
 _NICE = 5
 _READ_SIZE = 1 << 20
 

@@ -50,8 +50,8 @@ class WriterProcess:
         self.queued = 0
         self.running = True
         self.fault = ''
-        # a session of its own: Ctrl-C in a terminal must end the simulation only, whose end ends
-        # the writer
+        # its own session, so that Ctrl-C in a terminal ends the simulation only; the writer ends
+        # when its input does
         self._process = subprocess.Popen(
             # -P: modules that lie in the working folder are not imported
             [sys.executable, '-P', '-m', 'fluid_sim_ros.recording.writing.writer'],
