@@ -96,6 +96,35 @@ def period_steps(rate_hz: float, timestep: float, what: str) -> int:
     return steps.numerator
 
 
+def rounded_duration(seconds: float, timestep: float) -> tuple[int, str]:
+    """
+    Return the step nearest to the end of a run; 0 s means never.
+
+    Parameters
+    ----------
+    seconds
+        Duration [s].
+    timestep
+        [s].
+
+    Returns
+    -------
+    tuple
+        The step, 1 at least; and a line that says so where the duration was rounded, or ''.
+
+    """
+    if not seconds:
+        return NEVER, ''
+    steps = exact(seconds) / exact(timestep)
+    nearest = max(1, round(steps))
+    if steps.denominator == 1:
+        return nearest, ''
+    return nearest, (
+        f'duration: {seconds:g} s is not a whole number of timesteps of {timestep:g} s; rounded '
+        f'to {nearest} steps, {nearest * timestep:.9g} s'
+    )
+
+
 def duration_steps(seconds: float, timestep: float) -> int:
     """
     Return the step at which a run of ``seconds`` ends; 0 s means never.

@@ -18,13 +18,14 @@ from fluid_sim_ros.cli.signals import stopped_by_signals
 from fluid_sim_ros.cli.tables import table_of
 from fluid_sim_ros.cli.watcher import SAMPLE_PERIOD, Watcher
 from fluid_sim_ros.errors import ConfigError, listed, needed_for
+from fluid_sim_ros.loop.hold import Hold
 from fluid_sim_ros.loop.pacing import Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
 from fluid_sim_ros.loop.watchdogs import Watchdogs
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import duration_steps
+from fluid_sim_ros.step_clock import rounded_duration
 
 if TYPE_CHECKING:
     from fluid_sim_ros.recording.sink import RecordingSink
@@ -39,6 +40,7 @@ def run_scene(
     wind: Sequence[float] | None = None,
     current: Sequence[float] | None = None,
     realtime: bool = False,
+    hold: bool = False,
     record: str | Path | None = None,
     record_topics: Sequence[str] = ('*',),
     allow_assets_from: Sequence[Path] = (),
@@ -59,6 +61,8 @@ def run_scene(
         Of the model, to start at; default: the scene's.
     wind, current
         Velocity of the medium from the start [m/s], world axes (ENU).
+    hold
+        Have every vehicle with thrusters held where it begins; see ``loop.hold``.
     realtime
         Keep pace with the clock instead of running free.
     record, record_topics
@@ -99,7 +103,9 @@ def run_scene(
         seconds = simulation.scene.duration
     if seconds is not None and not 0 < seconds < float('inf'):
         raise ConfigError(f'duration {seconds:g} s: must be finite and above 0')
-    steps = duration_steps(seconds or 0.0, simulation.timestep)
+    steps, rounded = rounded_duration(seconds or 0.0, simulation.timestep)
+    if rounded:
+        simulation.warnings.add(rounded)
     if wind is not None:
         simulation.set_wind(wind)
     if current is not None:
@@ -122,6 +128,8 @@ def run_scene(
             if autopilot is not None:
                 flight = Flight(simulation, pacing, autopilot, log, say)
                 pacing = flight.pacing
+            if hold:
+                sinks.append(Hold(simulation, log))
             runner = Runner(simulation, NoSource(), sinks, pacing)
             connected = nullcontext() if flight is None else flight.of(runner)
             with stopped_by_signals(runner.stop) as interruption, connected:

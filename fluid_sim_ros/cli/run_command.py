@@ -57,6 +57,11 @@ def add_parser(commands: Any, show: Show) -> None:
             help=f'velocity of the {medium} from the start [m/s], east north up',
         )  # fmt: skip
     run.add_argument(
+        '--hold', action='store_true',
+        help='have each vehicle with thrusters held where it begins, by the laws of the example '
+        'controllers',
+    )  # fmt: skip
+    run.add_argument(
         '--pacing', choices=('free', 'realtime'), default='free',
         help='as fast as it goes (default), or with the clock and a line of what happens',
     )  # fmt: skip
@@ -79,6 +84,8 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
 
     if arguments.record_topics and not arguments.record:
         raise ConfigError('--record-topics needs --record PATH')
+    if arguments.hold and arguments.autopilot:
+        raise ConfigError('--hold and --autopilot: two cannot command at once; give one of them')
     given = {key: getattr(arguments, key) for key in RunSettings.model_fields}
     settings = RunSettings.checked('--{}', **given)
     if arguments.advised:
@@ -91,6 +98,7 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
         wind=arguments.wind,
         current=arguments.current,
         realtime=arguments.pacing == 'realtime',
+        hold=arguments.hold,
         record=arguments.record,
         record_topics=arguments.record_topics or ['*'],
         allow_assets_from=arguments.allow_assets_from,

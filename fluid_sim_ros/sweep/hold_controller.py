@@ -14,6 +14,7 @@ from fluid_sim_ros.control.plant import Plant
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
+from fluid_sim_ros.loop.hold import state_of
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import period_steps
@@ -89,13 +90,8 @@ class HoldController:
 
         """
         row = simulation.observe(forces=False)[self._row]
-        position = row[nat.POSITION]
-        self._errors.append(math.dist(position, self._target))
-        state = State(
-            simulation.time, position.tolist(), row[nat.QUATERNION].tolist(),
-            row[nat.LINEAR_VELOCITY].tolist(), row[nat.ANGULAR_VELOCITY].tolist(),
-        )  # fmt: skip
-        thrusts = self._answer(state)
+        self._errors.append(math.dist(row[nat.POSITION], self._target))
+        thrusts = self._answer(state_of(simulation, row))
         simulation.set_thrust(self._vehicle, thrusts)
 
     def columns(self) -> dict[str, Any]:
