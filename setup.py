@@ -119,11 +119,14 @@ ROS = ['ros-jazzy-rclpy[fastrtps]>=7.1,<8', 'ros-jazzy-common-interfaces>=5.3,<6
 MAVLINK = ['pymavlink>=2.4.41,<3']
 RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
+PARQUET = ['pyarrow>=16']
 # Ray carries sweeps beyond one machine; threads need pyarrow only.
-SWEEP = ['pyarrow>=16', 'ray>=2.40,<3']
+SWEEP = [*PARQUET, 'ray>=2.40,<3']
 # Sweeps of stock scenes as worlds of mujoco_warp; each minor version is tested anew.
 WARP = ['mujoco-warp>=4.0,<4.1', 'warp-lang>=1.19,<1.20', 'pyarrow>=16']
 RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
+# All that the commands of README and doc/ use, on one machine without a GPU.
+ALL = [*ROS, *MAVLINK, *RECORD, *RENDER, *CHARTS, *SWEEP]
 TEST = [
     *MAVLINK,
     *RENDER,
@@ -183,9 +186,11 @@ setup(
         'mavlink': MAVLINK,
         'record': RECORD,
         'render': RENDER,
+        'parquet': PARQUET,
         'sweep': SWEEP,
         'warp': WARP,
         'charts': CHARTS,
+        'all': ALL,
         'test': TEST,
         'peers': PEERS,
         'dev': DEV,

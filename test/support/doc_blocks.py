@@ -1,0 +1,54 @@
+"""The commands and programs that README.md and doc/ show."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from test.support.paths import DOC, ROOT
+
+_BLOCK = re.compile(r'^( *)```(\w*)\n(.*?)^ *```', re.DOTALL | re.MULTILINE)
+_SHELL = ('', 'sh', 'bash', 'console')
+#: Its blocks are excerpts of the package's own files (test_extending.py).
+_EXCERPTS = DOC / 'extending.md'
+
+
+class Block(NamedTuple):
+    """A fenced block: its page, its first line, and what is in it."""
+
+    page: str
+    line: int
+    language: str
+    text: str
+
+    @property
+    def commands(self) -> list[str]:
+        """The commands of a shell block, without the remarks behind them."""
+        lines = (
+            re.sub(r'(^|\s+)#.*', '', line).strip()
+            for line in self.text.replace('\\\n', ' ').splitlines()
+        )
+        return [line for line in lines if line]
+
+
+def blocks(shell: bool) -> Iterator[Block]:
+    """
+    Yield the blocks of all pages.
+
+    Parameters
+    ----------
+    shell
+        Whether those of commands are wanted, or those of Python.
+
+    """
+    for page in (ROOT / 'README.md', *sorted(DOC.rglob('*.md'))):
+        text = page.read_text(encoding='utf-8')
+        for match in _BLOCK.finditer(text):
+            kinds = _SHELL if shell else ('python',)
+            if match[2] in kinds and page != _EXCERPTS:
+                line = text[: match.start()].count('\n') + 1
+                yield Block(_name(page), line, match[2], match[3])
+
+
+def _name(page: Path) -> str:
+    return str(page.relative_to(ROOT))
