@@ -131,7 +131,7 @@ def fly_in_blocks(
     """
     settings: dict[str, Any] = {
         'scene': SCENE, 'timestep': 0.002, 'integrator': integrator.lower(), 'pacing': 'free',
-        'record': path, 'record.topics': json.dumps(topics),
+        'record.path': path, 'record.topics': json.dumps(topics),
     }  # fmt: skip
     given = [part for key, value in settings.items() for part in ('-p', f'{key}:={value}')]
     environment = {

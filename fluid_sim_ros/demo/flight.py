@@ -133,7 +133,7 @@ class _Children:
         self._environment = {'ROS_DOMAIN_ID': str(domain), 'ROS_LOG_DIR': str(out / 'ros_log')}
         recording: dict[str, Any] = {}
         if log is not None:
-            recording = {'record': log, 'record.topics': list(TOPICS)}
+            recording = {'record.path': log, 'record.topics': list(TOPICS)}
         self.simulator = self._start(
             'fluid_sim_node', 'fluid_sim_ros.ros.node',
             scene=SCENE, pacing='lockstep', duration=repr(duration), **recording,

@@ -117,7 +117,7 @@ def start_autopilot(
             )
         }
     )  # fmt: skip
-    log = CommandTap(inputs) if settings['record'] else None
+    log = CommandTap(inputs) if settings['record.path'] else None
     bridge = open_bridge(simulation, options, Surroundings(report, inform, reset, log))
     inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
     return bridge

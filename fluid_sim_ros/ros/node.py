@@ -235,7 +235,7 @@ class FluidSimNode(LifecycleNode):
         return self._on_stepping_thread(on_session)
 
     def _judge_change(self, changes: list[Parameter]) -> SetParametersResult:
-        return parameters.judge_change(changes, self._session is not None)
+        return parameters.judge_change(self, changes, self._session is not None)
 
     def _take_change(self, changes: list[Parameter]) -> None:
         names = [p.name for p in changes if p.name in parameters.TABLE]

@@ -56,7 +56,7 @@ def start_recording(
         If a pattern matches no topic, the file cannot be made, or the extra is missing.
 
     """
-    if not settings['record']:
+    if not settings['record.path']:
         return None
     patterns = [pattern for pattern in settings['record.topics'] if pattern]
     names = [topic.name for topic in outputs.topics] + [_DIAGNOSTICS]
@@ -75,7 +75,7 @@ def start_recording(
         diagnostics.record = len(recorded)
         recorded.append(RecordedTopic(_DIAGNOSTICS, _DIAGNOSTICS_TYPE, _DIAGNOSTICS))
     options = RecorderOptions(
-        path=Path(settings['record']),
+        path=Path(settings['record.path']),
         settings={name: _plain(value) for name, value in settings.items()},
         namespace=node.get_namespace(),
         policy=settings['record.policy'],

@@ -276,6 +276,9 @@ class Session:
 
         """
         before = dict(self._settings)
+        values = {name: value for name, value in values.items() if value != before[name]}
+        if not values:
+            return
         self._settings.update(values)
         try:
             if values.keys() & {'pacing', 'realtime.factor'}:

@@ -59,7 +59,7 @@ def fly_ardupilot(port):
 def test_a_node_that_an_autopilot_flies(tmp_path, protocol, fly):
     log, port = tmp_path / 'flight.mcap', free_port(protocol)
     settings = {
-        'scene': 'x500_ground', 'pacing': 'realtime', 'realtime.factor': 3.0, 'record': log,
+        'scene': 'x500_ground', 'pacing': 'realtime', 'realtime.factor': 3.0, 'record.path': log,
         'autopilot.protocol': protocol, 'autopilot.port': port,
     }  # fmt: skip
     with Peer() as peer:
@@ -92,7 +92,7 @@ def test_a_node_that_an_autopilot_flies(tmp_path, protocol, fly):
 def test_sticks_on_a_topic_reach_px4(tmp_path):
     log, port, heard = tmp_path / 'flight.mcap', free_port('px4'), {}
     settings = {
-        'scene': 'x500_ground', 'pacing': 'realtime', 'record': log,
+        'scene': 'x500_ground', 'pacing': 'realtime', 'record.path': log,
         'autopilot.protocol': 'px4', 'autopilot.port': port, 'autopilot.sticks_timeout': 0.0,
     }  # fmt: skip
     with Peer() as peer, node(**settings) as process:

@@ -37,7 +37,7 @@ def test_what_was_published_and_received_is_in_the_log(tmp_path):
     path = tmp_path / 'a.mcap'
     with Peer() as peer:
         odometry = peer.collect(Odometry, f'{VEHICLE}/odom')
-        with node(scene='rov', record=path, command_timeout=0.3) as process:
+        with node(scene='rov', record__path=path, command_timeout=0.3) as process:
             thrust = peer.publisher(Float64MultiArray, f'{VEHICLE}/cmd/thrust')
             command = Float64MultiArray(data=[1.0, -2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
             thrust.publish(command)
@@ -67,7 +67,7 @@ def test_what_was_published_and_received_is_in_the_log(tmp_path):
 def test_topics_are_selected_and_a_reset_begins_a_new_log(tmp_path):
     path = tmp_path / 'a.mcap'
     topics = "['*/odom', '/clock']"
-    with Peer() as peer, node(scene='sphere', record=path, record__topics=topics) as process:
+    with Peer() as peer, node(scene='sphere', record__path=path, record__topics=topics) as process:
         for _ in range(2):
             peer.call(Trigger, 'fluid_sim_node/reset')
         process.signal(signal.SIGINT)
@@ -82,7 +82,8 @@ def test_topics_are_selected_and_a_reset_begins_a_new_log(tmp_path):
 def test_a_namespace_stands_before_the_recorded_topics(tmp_path):
     path = tmp_path / 'a.mcap'
     arguments = ['--ros-args', '-r', '__ns:=/tank']
-    with Process(NODE, *arguments, scene='sphere', record=path, duration=0.1) as process:
+    settings = {'scene': 'sphere', 'record.path': path, 'duration': 0.1}
+    with Process(NODE, *arguments, **settings) as process:
         assert process.wait() == 0
     assert {'/tank/sphere/odom', '/clock'} <= set(read(path))
 
@@ -90,12 +91,12 @@ def test_a_namespace_stands_before_the_recorded_topics(tmp_path):
 @pytest.mark.parametrize(
     ('parameters', 'line'),
     [
-        ({'record': '/proc/a.mcap'}, 'record: /proc/a.mcap: No such file or directory'),
+        ({'record__path': '/proc/a.mcap'}, 'record: /proc/a.mcap: No such file or directory'),
         ({'record__topics': "['moon']"}, "'moon' matches no topic; there are: sphere/odom"),
     ],
 )
 def test_a_wrong_setting_is_one_line(tmp_path, parameters, line):
-    given = {'scene': 'sphere', 'record': tmp_path / 'a.mcap', **parameters}
+    given = {'scene': 'sphere', 'record__path': tmp_path / 'a.mcap', **parameters}
     with node(**given) as process:
         assert process.wait() == 2
     assert line in process.output
@@ -105,7 +106,7 @@ def test_a_full_disk_is_reported_and_the_node_flies_on(tmp_path):
     path = tmp_path / 'a.mcap'
     with Peer() as peer:
         peer.watch_diagnostics()
-        with node(scene='rov', record=path, pacing='free') as process:
+        with node(scene='rov', record__path=path, pacing='free') as process:
             wait_until(lambda: path.exists(), 'the log')
             limit_files(writer_of(process), 1 << 16)
             wait_until(lambda: peer.diagnostics.get('recording', (0,))[0] == 2, 'the report')
@@ -140,7 +141,9 @@ def limit_files(pid, size):
 @pytest.mark.parametrize('scene', ['sphere', 'x500'])
 def test_equal_messages_have_equal_bytes_with_and_without_ros(tmp_path, scene):
     run_scene(scene, duration=0.5, record=tmp_path / 'a.mcap')
-    with node(scene=scene, record=tmp_path / 'b.mcap', duration=0.5, pacing='free') as process:
+    with node(
+        scene=scene, record__path=tmp_path / 'b.mcap', duration=0.5, pacing='free'
+    ) as process:
         assert process.wait() == 0
     first, second = read(tmp_path / 'a.mcap'), read(tmp_path / 'b.mcap')
     assert second.pop('/diagnostics')
@@ -152,7 +155,7 @@ def test_equal_messages_have_equal_bytes_with_and_without_ros(tmp_path, scene):
 def test_markers_are_recorded_as_published_and_a_pattern_takes_them_away(tmp_path):
     with Peer() as peer:
         markers = peer.collect(MarkerArray, f'{VEHICLE}/markers', latched=True)
-        with node(scene='rov', record=tmp_path / 'a.mcap') as process:
+        with node(scene='rov', record__path=tmp_path / 'a.mcap') as process:
             wait_until(lambda: len(markers) > 4, 'markers')
             process.signal(signal.SIGINT)
             assert process.wait() == 0
@@ -166,7 +169,7 @@ def test_markers_are_recorded_as_published_and_a_pattern_takes_them_away(tmp_pat
         assert by_stamp[stamp_ns(message.markers[0])] == message
     topics = "['!*/markers', '!/diagnostics']"
     path = tmp_path / 'b.mcap'
-    with node(scene='rov', record=path, record__topics=topics, duration=0.1) as process:
+    with node(scene='rov', record__path=path, record__topics=topics, duration=0.1) as process:
         assert process.wait() == 0
     assert f'/{VEHICLE}/odom' in read(path)
     assert not {f'/{VEHICLE}/markers', '/diagnostics'} & set(read(path))

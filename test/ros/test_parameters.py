@@ -15,6 +15,7 @@ from fluid_sim_ros.ros.parameters import files
 from fluid_sim_ros.ros.parameters import simulator as parameters
 from fluid_sim_ros.ros.parameters.table import check
 from fluid_sim_ros.ros.process import check_domain
+from test.support.ros_processes import Peer
 
 pytestmark = pytest.mark.ros
 
@@ -57,12 +58,17 @@ def test_check_names_what_is_allowed(name, value, fault):
 
 
 def test_physics_is_fixed_while_configured_and_pacing_is_not():
-    scene = [Parameter('scene', value='rov')]
-    refused = parameters.judge_change(scene, configured=True)
-    assert not refused.successful
-    assert 'fixed while the node is configured' in refused.reason
-    assert parameters.judge_change(scene, configured=False).successful
-    assert parameters.judge_change([Parameter('pacing', value='free')], configured=True).successful
+    def judge(name, value, configured=True):
+        return parameters.judge_change(peer.node, [Parameter(name, value=value)], configured)
+
+    with Peer() as peer:
+        parameters.declare_all(peer.node)
+        refused = judge('scene', 'rov')
+        assert not refused.successful
+        assert 'fixed while the node is configured' in refused.reason
+        assert judge('scene', 'rov', configured=False).successful
+        assert judge('scene', 'quadrotor').successful  # what it is already
+        assert judge('pacing', 'free').successful
 
 
 @pytest.mark.parametrize('path', sorted((config_folder() / 'params').glob('*.yaml')), ids=str)

@@ -30,7 +30,7 @@ from fluid_sim_ros.messages.topic import NEWEST, STATE
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.state_source import StateSource
 from fluid_sim_ros.ros.controllers.states import StampedState
-from fluid_sim_ros.ros.parameters.table import Table, declare, judge
+from fluid_sim_ros.ros.parameters.table import Table, declare, judge, value_of
 from fluid_sim_ros.ros.raw import PolledSubscription, RawPublisher, WaitSet
 from fluid_sim_ros.simulation.plant import plant_of
 
@@ -118,7 +118,7 @@ class ControllerNode(Node, ABC):
         scene = self.get_parameter('scene').value or scene
         self.plant, self.vehicle = plant_of(scene, self.get_parameter('vehicle').value)
         self.plan = WaypointPlan(
-            from_flat(self.get_parameter('waypoints').value),
+            from_flat(value_of(self, self._table, 'waypoints')),
             radius=parameters.number(self, 'waypoint_radius'),
             turn=self.turn,
         )
@@ -257,7 +257,7 @@ class ControllerNode(Node, ABC):
     # ---- parameters (executor thread) ----------------------------------------------------------
 
     def _judge(self, changes: list[Parameter]) -> SetParametersResult:
-        return judge(self._table, changes, fixed='the controller runs')
+        return judge(self, self._table, changes, fixed='the controller runs')
 
     def _take(self, changes: list[Parameter]) -> None:
         if any(change.name in self._table for change in changes):

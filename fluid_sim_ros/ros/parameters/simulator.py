@@ -83,10 +83,11 @@ TABLE: dict[str, Declared] = {
         state_topics.DEFAULTS['odom.twist_covariance'],
         '[m^2/s^2, rad^2/s^2] diagonal of the twist covariance', low=0, length=(6,),
     ),
-    'record': Declared(
+    'record.path': Declared(
         '',
         'MCAP file (.mcap) to record to, or a folder that becomes a rosbag2 bag; empty = no '
         'recording; a reset begins a new one',
+        former='record',
     ),
     'record.topics': Declared(
         ['*'],
@@ -180,19 +181,19 @@ def read_all(node: Node) -> dict[str, Any]:
         Value by parameter name, in the parameter's unit.
 
     """
-    values = {}
-    for name, declared in TABLE.items():
-        value = node.get_parameter(name).value
-        values[name] = float(value) if isinstance(declared.default, float) else value
-    return values
+    return {name: parameter_table.value_of(node, TABLE, name) for name in TABLE}
 
 
-def judge_change(parameters: Sequence[Parameter], configured: bool) -> SetParametersResult:
+def judge_change(
+    node: Node, parameters: Sequence[Parameter], configured: bool
+) -> SetParametersResult:
     """
     Accept or refuse a change at run time.
 
     Parameters
     ----------
+    node
+        The simulator's node.
     parameters
         What shall be changed.
     configured
@@ -207,4 +208,4 @@ def judge_change(parameters: Sequence[Parameter], configured: bool) -> SetParame
     if any(change.name == 'use_sim_time' and change.value for change in parameters):
         return SetParametersResult(successful=False, reason=USE_SIM_TIME_REFUSED)
     fixed = 'the node is configured (cleanup first)' if configured else ''
-    return parameter_table.judge(TABLE, parameters, fixed)
+    return parameter_table.judge(node, TABLE, parameters, fixed)

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import yaml
 from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
@@ -42,6 +43,8 @@ class Declared:
         May change at run time; the others are fixed while what they set up is there.
     may_be_nan
         ``nan`` is allowed and means what the description says.
+    former
+        Name that it had in the last release, which is still understood at the start.
 
     """
 
@@ -53,6 +56,7 @@ class Declared:
     length: tuple[int, ...] = ()
     live: bool = False
     may_be_nan: bool = False
+    former: str = ''
 
 
 Table = Mapping[str, Declared]
@@ -75,16 +79,91 @@ def declare(node: Node, table: Table) -> None:
         If an override names no parameter, has the wrong type, or is out of range.
 
     """
-    for name, override in parameter_overrides(node).items():
+    given = parameter_overrides(node)
+    new_names = {declared.former: name for name, declared in table.items() if declared.former}
+    replaced: dict[str, Any] = {}
+    for given_name, override in given.items():
+        name = new_names.get(given_name, given_name)
         if name in table:
             fault = check(table, name, override.value)
             if fault:
                 raise ConfigError(fault)
+            if name != given_name:
+                _warn_of_former(node, name, given_name, both=name in given)
+            if name != given_name or override.value is None:
+                replaced[name] = converted(table[name], override.value)
         elif name not in _BUILT_IN and not name.startswith('qos_overrides.'):
             hint = did_you_mean(name, table)
             raise ConfigError(f"parameter '{name}' is not known{hint} parameters: {listed(table)}")
     for name, declared in table.items():
-        node.declare_parameter(name, declared.default, _descriptor(declared))
+        value = replaced.get(name, declared.default)
+        node.declare_parameter(name, value, _descriptor(declared), name in replaced)
+
+
+def _warn_of_former(node: Node, name: str, former: str, both: bool) -> None:
+    if both:
+        raise ConfigError(f"parameters '{name}' and '{former}' are the same: give the first alone")
+    node.get_logger().warning(
+        f"parameter '{former}' is called '{name}' now; the next release does not know the old name"
+    )
+
+
+def value_of(node: Node, table: Table, name: str) -> Any:
+    """
+    Return the present value of a parameter.
+
+    Parameters
+    ----------
+    node
+        The node.
+    table
+        Its parameters by name.
+    name
+        One of them.
+
+    Returns
+    -------
+    Any
+        Of the default's type: a float also where an integer or a text was given.
+
+    """
+    return converted(table[name], node.get_parameter(name).value)
+
+
+def converted(declared: Declared, value: Any) -> Any:
+    """
+    Return a value in the type of the parameter, where it can be read as such.
+
+    The tools of ROS take ``1e-05`` and ``nan`` for texts, pass a list of numbers with one of
+    these as one text, and read an empty list in a file as nothing at all.
+
+    Parameters
+    ----------
+    declared
+        The parameter.
+    value
+        What was given.
+
+    Returns
+    -------
+    Any
+        A float or a list of floats where the parameter is one and the value allows it; otherwise
+        the value as it was given.
+
+    """
+    if value is None and isinstance(declared.default, list):
+        return []
+    try:
+        if isinstance(declared.default, float) and not isinstance(value, bool):
+            return float(value)
+        if isinstance(declared.default, list) and not _holds_texts(declared):
+            if isinstance(value, str):
+                value = yaml.safe_load(value)
+            if not isinstance(value, str) and not any(isinstance(v, bool) for v in value):
+                return [float(v) for v in value]
+    except (TypeError, ValueError, yaml.YAMLError):
+        return value
+    return value
 
 
 def _descriptor(declared: Declared) -> ParameterDescriptor:
@@ -126,6 +205,7 @@ def check(table: Table, name: str, value: Any) -> str | None:
     """
     declared = table[name]
     where = f"parameter '{name}': {value!r}"
+    value = converted(declared, value)
     default = declared.default
     if isinstance(default, list):
         return _check_array(where, declared, value)
@@ -141,6 +221,18 @@ def check(table: Table, name: str, value: Any) -> str | None:
     return None
 
 
+def _holds_texts(declared: Declared) -> bool:
+    return bool(declared.default) and isinstance(declared.default[0], str)
+
+
+def _is_same(node: Node, declared: Declared, change: Parameter) -> bool:
+    present = converted(declared, node.get_parameter(change.name).value)
+    wanted = converted(declared, change.value)
+    if isinstance(declared.default, list):
+        return list(present) == list(wanted)
+    return bool(present == wanted) or (present != present and wanted != wanted)  # both nan
+
+
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
@@ -148,7 +240,7 @@ def _is_number(value: Any) -> bool:
 def _check_array(where: str, declared: Declared, value: Any) -> str | None:
     if isinstance(value, str | bytes) or not hasattr(value, '__len__'):
         return f'{where} is not an array'
-    if declared.default and isinstance(declared.default[0], str):
+    if _holds_texts(declared):
         return None if all(isinstance(v, str) for v in value) else f'{where}: not all are strings'
     if not all(map(_is_number, value)):
         return f'{where}: not all are numbers'
@@ -166,18 +258,23 @@ def _check_range(where: str, declared: Declared, values: Sequence[float]) -> str
     return None
 
 
-def judge(table: Table, changes: Sequence[Parameter], fixed: str) -> SetParametersResult:
+def judge(
+    node: Node, table: Table, changes: Sequence[Parameter], fixed: str
+) -> SetParametersResult:
     """
     Accept or refuse a change at run time.
 
     Parameters
     ----------
+    node
+        The node.
     table
-        The node's parameters by name.
+        Its parameters by name.
     changes
         What shall be changed.
     fixed
-        While what the parameters that are not live keep their values; empty: they may change now.
+        While what the parameters that are not live keep their values; empty: they may change
+        now. To set one to the value that it has (``ros2 param load``) is no change.
 
     Returns
     -------
@@ -190,7 +287,7 @@ def judge(table: Table, changes: Sequence[Parameter], fixed: str) -> SetParamete
         if declared is None:
             continue
         fault = check(table, change.name, change.value)
-        if fault is None and fixed and not declared.live:
+        if fault is None and fixed and not declared.live and not _is_same(node, declared, change):
             live = listed(name for name, entry in table.items() if entry.live)
             fault = f"parameter '{change.name}': fixed while {fixed}; changeable: {live}"
         if fault:
