@@ -198,11 +198,11 @@ setup(
     entry_points={
         'console_scripts': [
             'fluid_sim = fluid_sim_ros.cli:main',
-            'fluid_sim_node = fluid_sim_ros.ros.node:main',
-            'plane_controller = fluid_sim_ros.ros.controllers.plane:main',
-            'quad_controller = fluid_sim_ros.ros.controllers.quad:main',
-            'rov_controller = fluid_sim_ros.ros.controllers.rov:main',
-            'auv_controller = fluid_sim_ros.ros.controllers.auv:main',
+            'fluid_sim_node = fluid_sim_ros.ros.executables:fluid_sim_node',
+            'plane_controller = fluid_sim_ros.ros.executables:plane_controller',
+            'quad_controller = fluid_sim_ros.ros.executables:quad_controller',
+            'rov_controller = fluid_sim_ros.ros.executables:rov_controller',
+            'auv_controller = fluid_sim_ros.ros.executables:auv_controller',
         ],
     },
     zip_safe=False,

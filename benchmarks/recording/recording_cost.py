@@ -35,7 +35,7 @@ from fluid_sim_ros.recording.sink import RecordingSink
 
 DOMAIN = '101'
 SCENE = 'rov'
-STATES = ['*/odom', '*/wrench/total', '*/imu/data', '/clock']
+STATES = ['*/odom', '*/wrench/total', '*/imu/data_raw', '/clock']
 SETS = {
     'odom, wrench/total, imu, clock, commands': STATES,
     'every state topic, commands': ['*'],

@@ -6,7 +6,7 @@ import: they know the protocol below, and the name under which the part is found
 wanted.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from importlib import import_module
@@ -169,14 +169,13 @@ def open_recorder(
 
 
 def selected(
-    names: Sequence[str], patterns: Sequence[str], option: str = 'record.topics'
+    names: Sequence[str],
+    patterns: Sequence[str],
+    option: str = 'record.topics',
+    old_names: Collection[str] = (),
 ) -> set[str]:
     """
     Return the topic names that the shell patterns choose.
-
-    They are applied in their order: each adds what it matches, or takes it away where it begins
-    with ``!``. Where the first one takes away, all others are chosen before. ``option`` is what
-    the user gave the patterns to.
 
     Parameters
     ----------
@@ -187,6 +186,9 @@ def selected(
         ``!``. Where the first one takes away, all others are chosen before.
     option
         What the user gave the patterns to, for errors.
+    old_names
+        Those of the names that have a new name beside them: only patterns that match no other
+        name choose them.
 
     Returns
     -------
@@ -199,12 +201,13 @@ def selected(
         If a pattern matches none.
 
     """
-    chosen = set(names) if patterns and patterns[0].startswith('!') else set()
+    chosen = set(names) - set(old_names) if patterns and patterns[0].startswith('!') else set()
     for pattern in patterns:
         matching = {name for name in names if fnmatchcase(name, pattern.removeprefix('!'))}
         if not matching:
             raise ConfigError(
                 f"{option}: '{pattern}' matches no topic; there are: {listed(names)}"
             )
+        matching = matching - set(old_names) or matching
         chosen = chosen - matching if pattern.startswith('!') else chosen | matching
     return chosen

@@ -33,11 +33,18 @@ class SensorTopic(StateTopic):
         Which of its topics.
     vehicle
         Name of the vehicle.
+    former
+        Under the name that the topic had in the last release.
 
     """
 
     def __init__(
-        self, simulation: Simulation, sensor: Sensor, reading: Reading, vehicle: str
+        self,
+        simulation: Simulation,
+        sensor: Sensor,
+        reading: Reading,
+        vehicle: str,
+        former: bool = False,
     ) -> None:
         self._simulation, self._sensor = simulation, sensor
         self._stamp = StampBytes()
@@ -47,10 +54,12 @@ class SensorTopic(StateTopic):
         copies = [(template.stamps[0], self._stamp.view)]
         pairs = zip(sources.values(), template.blocks, strict=True)
         copies += template.copies([self._as_wide(numbers, len(b)) for numbers, b in pairs])
+        name = f'{vehicle}/{reading.topic}'
         super().__init__(
-            f'{vehicle}/{reading.topic}', reading.message, template,
+            f'{vehicle}/{reading.former}' if former else name, reading.message, template,
             math.gcd(sensor.period, sensor.latency), copies, sensor.needs_forces,
             self._narrow if self._singles else None, SENSOR, appears_later=sensor.latency > 0,
+            new_name=name if former else '',
         )  # fmt: skip
 
     def _as_wide(self, numbers: NDArray[Any], size: int) -> NDArray[Any]:
@@ -91,14 +100,13 @@ def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> l
     Returns
     -------
     list of SensorTopic
-        In the order of the schema.
+        In the order of the schema, then those under former names.
 
     """
-    return [
-        SensorTopic(simulation, sensor, reading, vehicle)
-        for sensor in suite.sensors
-        for reading in sensor.readings
-    ]
+    pairs = [(sensor, reading) for sensor in suite.sensors for reading in sensor.readings]
+    topics = [SensorTopic(simulation, *pair, vehicle) for pair in pairs]
+    topics += [SensorTopic(simulation, *pair, vehicle, True) for pair in pairs if pair[1].former]
+    return topics
 
 
 def _sources(sensor: Sensor, reading: Reading) -> dict[str, NDArray[Any]]:

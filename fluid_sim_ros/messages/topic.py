@@ -60,6 +60,9 @@ class StateTopic:
         Quality of service that is offered.
     appears_later
         What it measures at one due step may stand in the message of another.
+    new_name
+        Where the topic is there for one release under the name that it had before: the name that
+        it has now. Recorded only where it is asked for by name.
     for_display
         Published at its rate of wall time at most, and also while the simulation stands.
 
@@ -74,6 +77,7 @@ class StateTopic:
     prepare: Callable[[], None] | None = None
     quality: Quality = STATE
     appears_later: bool = False
+    new_name: str = ''
 
     for_display: ClassVar[bool] = False
 

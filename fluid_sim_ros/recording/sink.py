@@ -45,7 +45,10 @@ class RecordingSink:
     ) -> None:
         known = {**state_topics.DEFAULTS, **command_messages.DEFAULTS, **(settings or {})}
         self._states = StateTopics(simulation, known)
-        names = selected([topic.name for topic in self._states.topics], topics)
+        names = selected(
+            [topic.name for topic in self._states.topics], topics,
+            old_names=[topic.name for topic in self._states.topics if topic.new_name],
+        )  # fmt: skip
         wanted = [topic for topic in self._states.topics if topic.name in names]
         commands = Commands(simulation, known).topics
         channels = [

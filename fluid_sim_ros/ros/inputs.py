@@ -11,8 +11,8 @@ from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
 from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.messages.commands import Commands, CommandTopic, Effect
 from fluid_sim_ros.messages.topic import NEWEST
+from fluid_sim_ros.ros.health.stale_commands import StaleCommands
 from fluid_sim_ros.ros.raw import PolledSubscription, WaitSet
-from fluid_sim_ros.ros.stale_commands import StaleCommands
 from fluid_sim_ros.simulation import Simulation
 
 #: Topics of which every message counts in lockstep by count.
@@ -62,6 +62,8 @@ class Inputs:
         Age of each vehicle's thrust command.
     saturated, ignored_answers
         Values beyond their range, and answers to states of the past, so far.
+    busy_s
+        Wall time spent in ``poll`` so far [s].
     tap
         The recorder, or None.
 
@@ -84,6 +86,7 @@ class Inputs:
         self._by_count = settings['lockstep.match'] == 'count'
         self.tap: RecorderPort | None = None
         self.saturated = 0
+        self.busy_s = 0.0
         self.ignored_answers = 0
         self.stale = StaleCommands(simulation, settings, report)
         self.inputs: list[Input] = []
@@ -110,9 +113,7 @@ class Inputs:
 
         """
         keep_all = self._by_count and topic.name.endswith(_COUNTED)
-        subscription = PolledSubscription(
-            self._node, topic.type, topic.name, NEWEST, keep_all, overridable=True
-        )
+        subscription = PolledSubscription(self._node, topic.type, topic.name, NEWEST, keep_all)
         self.inputs.append(Input(topic.name, subscription, topic))
 
     def _choose_awaited(self, simulation: Simulation, wait_for: Sequence[str]) -> None:
@@ -168,9 +169,11 @@ class Inputs:
             At a step boundary.
 
         """
-        for entry in self.inputs if self._refresh_when_due() else self._active:
+        begin = time.monotonic()
+        for entry in self.inputs if self._refresh_when_due(begin) else self._active:
             self._drain(simulation, entry)
         self._expire()
+        self.busy_s += time.monotonic() - begin
 
     def wait(self, simulation: Simulation, timeout: float) -> bool:
         """
@@ -220,7 +223,7 @@ class Inputs:
             At a step boundary.
 
         """
-        self._refresh_when_due()
+        self._refresh_when_due(time.monotonic())
         for entry in self._active:
             if not entry.required:
                 self._drain(simulation, entry)
@@ -229,8 +232,7 @@ class Inputs:
         """Return the topics whose answer is missing now."""
         return [entry.topic for entry in self._missing]
 
-    def _refresh_when_due(self) -> bool:
-        now = time.monotonic()
+    def _refresh_when_due(self, now: float) -> bool:
         if now - self._refreshed_at <= REFRESH_PERIOD:
             return False
         self._refreshed_at = now

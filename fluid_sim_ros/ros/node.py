@@ -5,9 +5,7 @@ The main thread steps, publishes and takes commands; a second thread runs the ex
 parameters, lifecycle) and hands its work over as requests that are served between steps.
 """
 
-import sys
 import threading
-import time
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
@@ -17,20 +15,24 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.loop.request_queue import RequestQueue
-from fluid_sim_ros.ros.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.parameters import simulator as parameters
-from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.process.run import Executable, run_process
+from fluid_sim_ros.ros.process.signals import leave
 from fluid_sim_ros.ros.services import create_services
 from fluid_sim_ros.ros.session import Session
 
 Result = TypeVar('Result')
 
 NODE_NAME = 'fluid_sim_node'
+SUMMARY = (
+    'The simulator as a ROS 2 lifecycle node: steps a scene with fluid forces, takes commands and '
+    'weather from topics, and publishes odometry, wrenches, sensors, /clock and /diagnostics.'
+)
 #: How long a service waits for the stepping thread [s]; configuring compiles a model.
 _REQUEST_TIMEOUT = 5.0
 _CONFIGURE_TIMEOUT = 60.0
-#: Least wall time between two log lines about the same fault [s].
-_LOG_PERIOD = 1.0
 
 
 class FluidSimNode(LifecycleNode):
@@ -44,8 +46,9 @@ class FluidSimNode(LifecycleNode):
         self._session: Session | None = None
         self._active = False
         self._ending = False
-        self._logged_at: dict[str, float] = {}
+        self._report = ThrottledLog(self.get_logger().warning)
         self.configure_error = ''
+        self.notes: list[str] = []
         self.add_on_set_parameters_callback(self._judge_change)
         self.add_post_set_parameters_callback(self._take_change)
         self._graph = GraphMonitor(self, self._report)
@@ -90,12 +93,18 @@ class FluidSimNode(LifecycleNode):
         if session is not None:
             session.inputs.wake()
 
-    def _report(self, key: str, line: str) -> None:
-        """Log a fault, not more often than once per second."""
-        now = time.monotonic()
-        if now - self._logged_at.get(key, -_LOG_PERIOD) >= _LOG_PERIOD:
-            self._logged_at[key] = now
-            self.get_logger().warning(line)
+    def warn(self, line: str) -> None:
+        """
+        Tell the user of something that may not be meant, in the log and in diagnostics.
+
+        Parameters
+        ----------
+        line
+            What.
+
+        """
+        self.get_logger().warning(line)
+        self.notes.append(line)
 
     def _on_stepping_thread(
         self, work: Callable[[], Result], timeout: float = _REQUEST_TIMEOUT
@@ -205,7 +214,7 @@ class FluidSimNode(LifecycleNode):
 
     def _create_session(self) -> None:
         settings = parameters.read_all(self)
-        session = Session(self, settings, self._requests, self._graph, self._report)
+        session = Session(self, settings, self._requests, self._graph, self._report, self.notes)
         self._session = session
         self.get_logger().info(
             f"scene '{session.simulation.scene.name}': "
@@ -276,8 +285,10 @@ def main(args: Sequence[str] | None = None) -> int:
         The process's exit code.
 
     """
-    return run_process(NODE_NAME, FluidSimNode, args, _autostart)
+    return run_process(
+        Executable(NODE_NAME, SUMMARY, parameters.TABLE, FluidSimNode, _autostart), args
+    )
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    leave(main())

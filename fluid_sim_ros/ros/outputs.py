@@ -78,6 +78,8 @@ class Outputs:
         Steps between two calls of ``write``.
     tap
         The recorder, or None.
+    busy_s, recording_s
+        Wall time spent in ``write`` so far, and that part of it for the recorder [s].
 
     Raises
     ------
@@ -95,6 +97,7 @@ class Outputs:
             for state in self._states.topics
         ]
         self.tap: RecorderPort | None = None
+        self.busy_s = self.recording_s = 0.0
         self._clock = next(topic for topic in self.topics if topic.state.type == CLOCK)
         self._active: list[Topic] = []
         self._for_display = [topic for topic in self.topics if topic.state.for_display]
@@ -107,7 +110,7 @@ class Outputs:
         # without an optional part of ROS (tf2_msgs) a topic can be recorded, but not published
         if find_message_class(state.type) is None:
             return None
-        return RawPublisher(self._node, state.type, state.name, state.quality, overridable=True)
+        return RawPublisher(self._node, state.type, state.name, state.quality)
 
     def destroy(self) -> None:
         """Remove the publishers from the node."""
@@ -136,7 +139,10 @@ class Outputs:
         if due:
             recorded = self._publish(due)
             if recorded and self.tap is not None:
+                before = time.monotonic()
                 self.tap.tick(recorded)
+                self.recording_s += time.monotonic() - before
+        self.busy_s += time.monotonic() - now
 
     def repeat(self, simulation: Simulation) -> None:
         """
@@ -185,6 +191,11 @@ class Outputs:
         for topic in self.topics:
             publisher = topic.publisher
             heard = publisher is not None and publisher.subscription_count() > 0
+            if heard and topic.state.new_name and not topic.subscribed:
+                self._node.get_logger().warning(
+                    f'{topic.name} is called {topic.state.new_name} now; the next release does '
+                    'not publish the old name'
+                )
             topic.subscribed = heard and not topic.state.for_display
             if heard and topic.state.for_display:
                 shown.append(topic)

@@ -12,6 +12,9 @@ that steps, which costs 1 to 2 us. For that they need from rclpy:
 * ``Node._parameter_overrides``: what the user passed, before anything is declared. Only there can
   a misspelt parameter be found.
 
+The quality of service of every topic may be overridden by the parameters
+``qos_overrides.<topic>...``, as is usual in ROS.
+
 A handle must not be destroyed while it is used; here both happen in the thread that owns it.
 """
 
@@ -20,6 +23,11 @@ from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
+from rclpy.event_handler import (
+    EventHandler,
+    PublisherEventCallbacks,
+    SubscriptionEventCallbacks,
+)
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -31,21 +39,50 @@ from fluid_sim_ros.ros.message_types import message_class
 
 
 class _PolledGroup(CallbackGroup):
-    """Keeps the executor away from what a loop takes itself: it would take the messages first."""
+    """
+    Keeps the executor away from what a loop takes itself: it would take the messages first.
+
+    It still has the executor call what the middleware says of a topic, such as a peer whose
+    quality of service does not fit.
+    """
 
     def can_execute(self, entity: Any) -> bool:
-        """Return False: the executor never takes these."""
-        return False
+        """Return whether it is an event: the executor takes no message."""
+        return isinstance(entity, EventHandler)
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Return False, as ``can_execute``."""
-        return False
+        """Return whether it is an event, as ``can_execute``."""
+        return self.can_execute(entity)
 
     def ending_execution(self, entity: Any) -> None:
-        """Do nothing: no execution ever began."""
+        """Do nothing: events do not keep each other waiting."""
 
 
-class PolledSubscription:
+class Endpoint:
+    """
+    One end of a topic.
+
+    Attributes
+    ----------
+    topic, type
+        Full name of the topic, after any remapping, and message type.
+    quality_of_service
+        What is asked for or offered, after the user's overrides.
+    incompatible
+        The middleware has met a peer with which no message can pass.
+
+    """
+
+    topic: str
+    type: str
+    quality_of_service: QoSProfile
+    incompatible = False
+
+    def _on_incompatible(self, info: Any) -> None:
+        self.incompatible = True
+
+
+class PolledSubscription(Endpoint):
     """
     A subscription whose messages the owner's thread takes when it wants them.
 
@@ -59,13 +96,6 @@ class PolledSubscription:
         Quality of service that is asked for.
     keep_all
         Keep every message until it is taken, instead of the newest ``quality.depth``.
-    overridable
-        Users may override the quality by the parameters ``qos_overrides.<topic>...``.
-
-    Attributes
-    ----------
-    topic
-        Full name of the topic, after any remapping.
 
     """
 
@@ -76,15 +106,17 @@ class PolledSubscription:
         topic: str,
         quality: Quality,
         keep_all: bool = False,
-        overridable: bool = False,
     ) -> None:
         self._node = node
+        self.type = message
         self._class = message_class(message)
         self._subscription = node.create_subscription(
             self._class, topic, lambda _: None, _profile(quality, keep_all),
             callback_group=_PolledGroup(), raw=True,
-            qos_overriding_options=_overriding(overridable),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            event_callbacks=SubscriptionEventCallbacks(incompatible_qos=self._on_incompatible),
         )  # fmt: skip
+        self.quality_of_service = self._subscription.qos_profile
         self.handle = self._subscription.handle
         self._take = self.handle.take_message
         self.topic = str(self._subscription.topic_name)
@@ -108,7 +140,7 @@ class PolledSubscription:
         self._node.destroy_subscription(self._subscription)
 
 
-class RawPublisher:
+class RawPublisher(Endpoint):
     """
     A publisher of messages that are bytes already.
 
@@ -120,8 +152,6 @@ class RawPublisher:
         Message type (``package/msg/Name``) and topic name.
     quality
         Quality of service that is offered.
-    overridable
-        Users may override the quality by the parameters ``qos_overrides.<topic>...``.
 
     Attributes
     ----------
@@ -130,14 +160,16 @@ class RawPublisher:
 
     """
 
-    def __init__(
-        self, node: Node, message: str, topic: str, quality: Quality, overridable: bool = False
-    ) -> None:
+    def __init__(self, node: Node, message: str, topic: str, quality: Quality) -> None:
         self._node = node
+        self.type = message
         self._publisher = node.create_publisher(
             message_class(message), topic, _profile(quality),
-            qos_overriding_options=_overriding(overridable),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            event_callbacks=PublisherEventCallbacks(incompatible_qos=self._on_incompatible),
         )  # fmt: skip
+        self.topic = str(self._publisher.topic_name)
+        self.quality_of_service = self._publisher.qos_profile
         self.publish = self._publisher.handle.publish_raw
 
     def subscription_count(self) -> int:
@@ -245,7 +277,3 @@ def _profile(quality: Quality, keep_all: bool = False) -> QoSProfile:
             durability.TRANSIENT_LOCAL if quality.transient_local else durability.VOLATILE
         ),
     )
-
-
-def _overriding(wanted: bool) -> QoSOverridingOptions | None:
-    return QoSOverridingOptions.with_default_policies() if wanted else None

@@ -14,13 +14,12 @@ from fluid_sim_ros.loop.recorder_port import (
     selected,
 )
 from fluid_sim_ros.messages.topic import NEWEST
-from fluid_sim_ros.ros.diagnostics import Diagnostics
+from fluid_sim_ros.ros.health.diagnostics import DIAGNOSTICS, Diagnostics
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.simulation import Simulation
 
 _DIAGNOSTICS = '/diagnostics'
-_DIAGNOSTICS_TYPE = 'diagnostic_msgs/msg/DiagnosticArray'
 
 
 def start_recording(
@@ -60,7 +59,8 @@ def start_recording(
         return None
     patterns = [pattern for pattern in settings['record.topics'] if pattern]
     names = [topic.name for topic in outputs.topics] + [_DIAGNOSTICS]
-    wanted = selected(names, patterns)
+    old_names = [topic.name for topic in outputs.topics if topic.state.new_name]
+    wanted = selected(names, patterns, old_names=old_names)
     recorded: list[RecordedTopic] = []
     for output in outputs.topics:
         if output.name in wanted:
@@ -73,7 +73,7 @@ def start_recording(
         recorded.append(RecordedTopic(full, entry.command.type, entry.topic, *NEWEST))
     if _DIAGNOSTICS in wanted:
         diagnostics.record = len(recorded)
-        recorded.append(RecordedTopic(_DIAGNOSTICS, _DIAGNOSTICS_TYPE, _DIAGNOSTICS))
+        recorded.append(RecordedTopic(_DIAGNOSTICS, DIAGNOSTICS, _DIAGNOSTICS))
     options = RecorderOptions(
         path=Path(settings['record.path']),
         settings={name: _plain(value) for name, value in settings.items()},

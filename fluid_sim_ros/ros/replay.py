@@ -22,7 +22,8 @@ from fluid_sim_ros.messages.state_topics import CLOCK
 from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.messages.topic import NEWEST, Quality
 from fluid_sim_ros.ros.message_types import find_message_class
-from fluid_sim_ros.ros.process import end_on_signal, executor_thread
+from fluid_sim_ros.ros.process.run import executor_thread
+from fluid_sim_ros.ros.process.signals import EndSignals
 from fluid_sim_ros.ros.raw import RawPublisher
 
 NODE_NAME = 'fluid_sim_replay'
@@ -250,7 +251,7 @@ def replay(
     """
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = ReplayNode(topics, options)
-    end_on_signal(node)
+    EndSignals(NODE_NAME).end(node)
     try:
         with executor_thread(node):
             node.play(messages)

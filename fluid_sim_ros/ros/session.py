@@ -1,31 +1,26 @@
 """What exists while the node is configured: simulation, topics and the loop between them."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy.node import Node
 
-from fluid_sim_ros.errors import CommandError, ConfigError, DivergedError, FluidSimError
-from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
-from fluid_sim_ros.loop.pacing import Lockstep, Pacing, RealTime
+from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError
 from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.loop.runner import Runner
-from fluid_sim_ros.ros.autopilot import check_pacing, start_autopilot
-from fluid_sim_ros.ros.diagnostics import Diagnostics
-from fluid_sim_ros.ros.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.autopilot import start_autopilot
+from fluid_sim_ros.ros.health.diagnostics import Diagnostics
+from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
+from fluid_sim_ros.ros.pacings import Pacings
 from fluid_sim_ros.ros.recording import start_recording
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import duration_steps, period_steps, whole_steps
+from fluid_sim_ros.step_clock import duration_steps
 
-#: Wall time between two publications of the present state while held in lockstep [s].
-_HOLD_PERIOD = 0.1
 _DIAGNOSTICS_PERIOD = 1.0
-#: Real-time pacing looks at its clock and its commands at least this often [Hz, simulated].
-_REALTIME_TICK_RATE = 100.0
 
 Report = Callable[[str, str], None]
 
@@ -46,6 +41,8 @@ class Session:
         Monitor of the ROS graph.
     report
         Takes (key, line): a fault to log, at most once per second and key.
+    notes
+        What the start found that may not be meant, for diagnostics.
 
     Raises
     ------
@@ -61,6 +58,7 @@ class Session:
         requests: RequestQueue,
         graph: GraphMonitor,
         report: Report,
+        notes: Sequence[str] = (),
     ) -> None:
         self._node = node
         self._settings = settings
@@ -76,15 +74,18 @@ class Session:
         self.inputs = Inputs(node, self.simulation, settings, report)
         self.outputs = Outputs(node, self.simulation, settings)
         self._diagnostics = Diagnostics(
-            node, self.simulation, self.inputs, graph, self.outputs.suites
+            node, self.simulation, self.inputs, self.outputs, graph, notes
         )
         self.simulation.enable_wind(settings['enable_wind'])
         self._bridge = start_autopilot(
             self.simulation, settings, self.inputs, report, node.get_logger().info, self.reset
         )
         self._diagnostics.bridge = self._bridge
+        self._pacings = Pacings(
+            self.simulation, settings, self.inputs, self.outputs, self._bridge, report
+        )
         self.runner = Runner(
-            self.simulation, self.inputs, [self.outputs], self._pacing(), requests,
+            self.simulation, self.inputs, [self.outputs], self._pacings.chosen(), requests,
             self._housekeeping,
         )  # fmt: skip
         self._diagnosed_at = 0.0
@@ -95,9 +96,14 @@ class Session:
         except FluidSimError:
             self._close_bridge()
             raise
+        self._graph = graph
+        graph.connections.watch(entry.subscription for entry in self.inputs.inputs)
+        graph.connections.watch(topic.publisher for topic in self.outputs.topics)
+        graph.connections.watch([self._diagnostics.publisher])
 
     def destroy(self) -> None:
         """End the log and remove every topic from the node."""
+        self._graph.connections.forget()
         self._close_bridge()
         if self.tap is not None:
             self.tap.close()
@@ -149,51 +155,6 @@ class Session:
         runner = self.runner
         stands = bool(runner.paused or runner.stopped or self.diverged)
         self.outputs.show(self.simulation, now, stands)
-
-    def _pacing(self) -> Pacing:
-        if self._bridge is not None:
-            check_pacing(self._settings)
-            return AutopilotPacing(self._bridge, self._clock())
-        return self._lockstep() if self._settings['pacing'] == 'lockstep' else self._clock()
-
-    def _clock(self) -> Pacing:
-        settings, timestep = self._settings, self.simulation.timestep
-        if settings['pacing'] == 'free':
-            return Pacing()
-        tick = max(1, round(1.0 / (_REALTIME_TICK_RATE * timestep)))
-        return RealTime(factor=settings['realtime.factor'], tick=tick)
-
-    def _lockstep(self) -> Lockstep:
-        settings, timestep = self._settings, self.simulation.timestep
-        self.inputs.check_awaited()
-        period = whole_steps(settings['lockstep.period'], timestep, "parameter 'lockstep.period'")
-        odometry = period_steps(settings['odom.rate'], timestep, "parameter 'odom.rate'")
-        if period % odometry:
-            raise ConfigError(
-                f"parameter 'lockstep.period': {settings['lockstep.period']:g} s is not a "
-                f'multiple of the odometry period {1 / settings["odom.rate"]:g} s, so some states '
-                'that must be answered would not be published'
-            )
-        rule = settings['lockstep.on_timeout']
-        on_timeout = {'hold': self._hold, 'continue': self._go_on, 'stop': self._give_up}[rule]
-        patience = _HOLD_PERIOD if rule == 'hold' else settings['lockstep.timeout']
-        return Lockstep(period=period, on_timeout=on_timeout, patience=patience)
-
-    def _hold(self, simulation: Simulation) -> bool:
-        self.outputs.repeat(simulation)
-        self.outputs.show(simulation, time.monotonic(), stands=True)
-        return False
-
-    def _go_on(self, simulation: Simulation) -> bool:
-        self._report('lockstep', self._no_answer() + ': going on, not deterministic')
-        return True
-
-    def _give_up(self, simulation: Simulation) -> bool:
-        raise FluidSimError(self._no_answer() + ": stopped, as 'lockstep.on_timeout' says")
-
-    def _no_answer(self) -> str:
-        topics = ', '.join(self.inputs.awaited())
-        return f'no answer on {topics} within {self._settings["lockstep.timeout"]:g} s'
 
     # ---- requests --------------------------------------------------------------------------
 
@@ -282,7 +243,7 @@ class Session:
         self._settings.update(values)
         try:
             if values.keys() & {'pacing', 'realtime.factor'}:
-                self.runner.pacing = self._pacing()
+                self.runner.pacing = self._pacings.chosen()
                 self.runner.pacing.begin(self.simulation)
                 self.inputs.forget()
             if 'enable_wind' in values:

@@ -39,10 +39,11 @@ class Imu(Sensor, file=ImuFile):
     # below the noise of any, above the rounding of float32
     dither = (1e-3, 1e-4)  # [m/s^2], [rad/s]
     readings = (
-        Reading('imu/data', IMU, (
+        # REP-145: data_raw where there is no orientation
+        Reading('imu/data_raw', IMU, (
             Quantity('angular_velocity', 'rad/s', ('gyroscope',)),
             Quantity('specific_force', 'm/s^2', ('accelerometer',)),
-        )),
+        ), former='imu/data'),
     )  # fmt: skip
     needs_forces = True
 

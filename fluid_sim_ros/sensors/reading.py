@@ -40,6 +40,8 @@ class Reading:
         What the message holds, in the order of its definition.
     frame
         Frame of the numbers; '' is the sensor's own.
+    former
+        Name that the topic had in the last release, under which it is still there; '' for none.
     constants
         Fields of the message that are the same in all of them, where only the sensor knows them.
 
@@ -49,6 +51,7 @@ class Reading:
     message: str
     quantities: tuple[Quantity, ...]
     frame: str = ''
+    former: str = ''
     constants: Mapping[str, int] = field(default_factory=dict)
 
 

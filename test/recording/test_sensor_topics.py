@@ -15,8 +15,8 @@ from fluid_sim_ros.sensors import SensorSuite
 from test.support.recorded_flights import record_flight
 
 TOPICS = {
-    'x500': ['gps/fix', 'gps/vel', 'imu/data', 'imu/mag', 'pressure', 'range'],
-    'rov': ['dvl/altitude', 'dvl/twist', 'imu/data', 'imu/mag', 'water/pressure'],
+    'x500': ['gps/fix', 'gps/vel', 'imu/data_raw', 'imu/mag', 'pressure', 'range'],
+    'rov': ['dvl/altitude', 'dvl/twist', 'imu/data_raw', 'imu/mag', 'water/pressure'],
 }
 
 
@@ -29,7 +29,8 @@ def test_messages_hold_the_readings(scene):
     simulation = Simulation(scene)
     name = next(iter(simulation.vehicles))
     states = StateTopics(simulation, DEFAULTS)
-    topics = {t.name.removeprefix(f'{name}/'): t for t in states.topics if not t.quality.reliable}
+    sensors = [t for t in states.topics if not t.quality.reliable and not t.new_name]
+    topics = {t.name.removeprefix(f'{name}/'): t for t in sensors}
     assert sorted(topics) == TOPICS[scene]
     suite = SensorSuite(simulation, name)
     for _ in range(3):
@@ -49,7 +50,7 @@ def test_messages_hold_the_readings(scene):
         assert message['header.stamp.sec'] * 10**9 + message['header.stamp.nanosec'] == 400_000_000
         frame = 'map' if key == 'gps/vel' else f'{name}/{FRAMES[key]}'
         assert message['header.frame_id'] == frame
-    imu, rate = found['imu/data'], 100.0
+    imu, rate = found['imu/data_raw'], 100.0
     assert vector(imu, 'linear_acceleration') == suite.imu.specific_force.tolist()
     assert vector(imu, 'angular_velocity') == suite.imu.angular_velocity.tolist()
     assert imu['orientation_covariance[0]'] == -1
@@ -68,8 +69,9 @@ def test_messages_hold_the_readings(scene):
 
 
 FRAMES = {
-    'imu/data': 'imu', 'imu/mag': 'magnetometer', 'pressure': 'barometer', 'range': 'rangefinder',
-    'water/pressure': 'pressure', 'dvl/twist': 'dvl', 'dvl/altitude': 'dvl', 'gps/fix': 'gnss',
+    'imu/data_raw': 'imu', 'imu/mag': 'magnetometer', 'pressure': 'barometer',
+    'range': 'rangefinder', 'water/pressure': 'pressure', 'dvl/twist': 'dvl',
+    'dvl/altitude': 'dvl', 'gps/fix': 'gnss',
 }  # fmt: skip
 
 
@@ -105,9 +107,13 @@ def test_a_flight_with_sensors_is_repeated_to_the_last_bit(tmp_path, topics):
 def test_readings_do_not_depend_on_what_else_is_recorded(tmp_path):
     record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.6, piloted=False)
     record_flight(
-        tmp_path / 'b.mcap', 'x500', seconds=0.6, piloted=False, topics=('*/imu/data', '*/gps/vel')
+        tmp_path / 'b.mcap',
+        'x500',
+        seconds=0.6,
+        piloted=False,
+        topics=('*/imu/data_raw', '*/gps/vel'),
     )
-    for topic in ('/x500/imu/data', '/x500/gps/vel'):
+    for topic in ('/x500/imu/data_raw', '/x500/gps/vel'):
         first, second = (
             [(m.step, m.data) for m in open_log(tmp_path / name).messages([topic])]
             for name in ('a.mcap', 'b.mcap')
@@ -119,7 +125,7 @@ def test_a_log_states_the_quality_of_sensors(tmp_path):
     record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.1, piloted=False)
     topics = open_log(tmp_path / 'a.mcap').topics.values()
     offered = {t.name: t.metadata['offered_qos_profiles'] for t in topics}
-    assert 'reliability: best_effort' in offered['/x500/imu/data']
+    assert 'reliability: best_effort' in offered['/x500/imu/data_raw']
     assert 'reliability: reliable' in offered['/x500/odom']
 
 
@@ -138,3 +144,24 @@ def test_frames_of_sensors_stand_on_the_vehicle(tmp_path):
     i = children['x500/imu']
     assert found[f'transforms[{i}].transform.rotation.w'] == 1.0
     assert not math.isnan(found[f'transforms[{i}].transform.translation.x'])
+
+
+def test_the_former_name_of_imu_data_raw_is_recorded_only_where_it_is_asked_for(tmp_path):
+    """Such as in logs of the last release, which are flown again as before."""
+    for patterns in (('*',), ('!*/odom',), ('*/imu/*',)):
+        path = tmp_path / f'{len(list(tmp_path.iterdir()))}.mcap'
+        record_flight(path, 'x500', seconds=0.1, piloted=False, topics=patterns)
+        names = open_log(path).topics.values()
+        assert '/x500/imu/data_raw' in [topic.name for topic in names]
+        assert '/x500/imu/data' not in [topic.name for topic in names]
+    path = tmp_path / 'old.mcap'
+    record_flight(
+        path, 'x500', seconds=0.3, piloted=False, topics=('*/imu/data', '*/imu/data_raw')
+    )
+    log = open_log(path)
+    messages = {name: [m.data for m in log.messages([name])] for name in (
+        '/x500/imu/data', '/x500/imu/data_raw'
+    )}  # fmt: skip
+    assert messages['/x500/imu/data'] == messages['/x500/imu/data_raw'] != []
+    outcome = resimulate(log)
+    assert outcome.compared and outcome.difference is None

@@ -14,7 +14,7 @@ pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
 def test_sensor_topics_are_those_of_the_simulation():
     with Peer() as peer:
-        imu = peer.collect(Imu, 'x500/imu/data', reliable=False)
+        imu = peer.collect(Imu, 'x500/imu/data_raw', reliable=False)
         others = [
             peer.collect(kind, f'x500/{name}', reliable=False)
             for kind, name in (
@@ -36,6 +36,22 @@ def test_sensor_topics_are_those_of_the_simulation():
     assert [rates.x, rates.y, rates.z] == suite.imu.angular_velocity.tolist()
     gaps = np.diff([stamp_ns(message) for message in others[0]])
     assert set(gaps) == {20_000_000}
+
+
+def test_the_former_name_of_imu_data_raw_is_there_for_one_release_with_a_word():
+    """REP-145: imu/data has an orientation, imu/data_raw has none."""
+    with Peer() as peer:
+        raw = peer.collect(Imu, 'x500/imu/data_raw', reliable=False)
+        with node(scene='x500') as process:
+            wait_until(lambda: len(raw) > 10, 'the IMU')
+            assert 'is called' not in process.output
+            old = peer.collect(Imu, 'x500/imu/data', reliable=False)
+            wait_until(lambda: len(old) > 10, 'the former name')
+            line = 'x500/imu/data is called x500/imu/data_raw now; the next release does not'
+            assert process.output.count(line) == 1
+    shared = {stamp_ns(m): m for m in raw}
+    both = [(m, shared[stamp_ns(m)]) for m in old if stamp_ns(m) in shared]
+    assert len(both) > 3 and all(one == other for one, other in both)
 
 
 def test_bottom_track_of_the_rov():

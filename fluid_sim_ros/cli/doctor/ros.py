@@ -55,7 +55,7 @@ def _domain(rclpy: State) -> Row:
     value = os.environ.get(name, '')
     if rclpy != 'ok':  # the check comes with the node, and a broken rclpy ends the process
         return Row(name, 'absent', value or 'not set', 'first mend ROS 2')
-    from fluid_sim_ros.ros.process import check_domain
+    from fluid_sim_ros.ros.process.command_line import check_domain
 
     try:
         check_domain()

@@ -1,7 +1,6 @@
 """``auv_controller``: holds depth, heading and speed with a propeller, a rudder and planes."""
 
 import math
-import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
@@ -11,9 +10,11 @@ from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameters.table import Declared
-from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.process.run import Executable, run_process
+from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'auv_controller'
+SUMMARY = 'Holds depth, heading and speed with a propeller, a rudder and stern planes.'
 DEFAULT_SCENE = 'remus100'
 #: Joint actuators in the order of the law's answer.
 FINS = ('rudder', 'planes')
@@ -99,8 +100,9 @@ def main(args: Sequence[str] | None = None) -> int:
         The process's exit code.
 
     """
-    return run_process(NODE_NAME, AuvController, args)
+    table = parameters.table_of(TorpedoGains, OWN)
+    return run_process(Executable(NODE_NAME, SUMMARY, table, AuvController), args)
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    leave(main())

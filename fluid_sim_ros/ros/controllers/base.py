@@ -30,6 +30,7 @@ from fluid_sim_ros.messages.topic import NEWEST, STATE
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.state_source import StateSource
 from fluid_sim_ros.ros.controllers.states import StampedState
+from fluid_sim_ros.ros.health.connections import Connections
 from fluid_sim_ros.ros.parameters.table import Table, declare, judge, value_of
 from fluid_sim_ros.ros.raw import PolledSubscription, RawPublisher, WaitSet
 from fluid_sim_ros.simulation.plant import plant_of
@@ -62,13 +63,13 @@ class _Commands:
     def __init__(self, node: Node, topic: str, member: str, count: int) -> None:
         self._template = Template.of(JOINT_STATE, {member: [0.0] * count}, [member])
         self._pack = struct.Struct(f'<{count}d').pack_into
-        self._publisher = RawPublisher(node, JOINT_STATE, topic, STATE)
+        self.publisher = RawPublisher(node, JOINT_STATE, topic, STATE)
 
     def publish(self, stamp: memoryview, values: Sequence[float]) -> None:
         """Send the values as the answer to the state of a stamp."""
         self._template.stamps[0][:] = stamp
         self._pack(self._template.blocks[0], 0, *values)
-        self._publisher.publish(self._template.bytes())
+        self.publisher.publish(self._template.bytes())
 
 
 class ControllerNode(Node, ABC):
@@ -139,6 +140,9 @@ class ControllerNode(Node, ABC):
         self._joints = None
         if vehicle.joints:
             self._joints = _Commands(self, f'{name}/cmd/joints', 'position', len(vehicle.joints))
+        connections = Connections(self, self.warn)
+        connections.watch([*self._states.subscriptions, self._waypoint])
+        connections.watch(c.publisher for c in (self._thrusts, self._joints) if c)
 
     def order_of_joints(self, commanded: Sequence[str]) -> list[int]:
         """
@@ -214,6 +218,18 @@ class ControllerNode(Node, ABC):
 
     def close(self) -> None:
         """Do nothing: a controller holds nothing that must be closed."""
+
+    def warn(self, line: str) -> None:
+        """
+        Tell the user of something that may not be meant.
+
+        Parameters
+        ----------
+        line
+            What.
+
+        """
+        self.get_logger().warning(line)
 
     def end(self) -> None:
         """Have ``run`` return; safe in a signal handler and in any thread."""

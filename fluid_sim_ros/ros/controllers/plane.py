@@ -1,7 +1,6 @@
 """``plane_controller``: holds altitude, heading and airspeed with a fixed-wing aircraft."""
 
 import math
-import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
@@ -16,9 +15,11 @@ from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import HEADING, OF_FIRST
 from fluid_sim_ros.ros.parameters.table import Declared
-from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.process.run import Executable, run_process
+from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'plane_controller'
+SUMMARY = 'Holds altitude, heading and airspeed with a fixed-wing aircraft, and flies waypoints.'
 DEFAULT_SCENE = 'aerosonde'
 #: Joint actuators that the law commands, in any order.
 SURFACES = FixedWingCommand._fields[1:]
@@ -111,8 +112,9 @@ def main(args: Sequence[str] | None = None) -> int:
         The process's exit code.
 
     """
-    return run_process(NODE_NAME, PlaneController, args)
+    table = parameters.table_of(FixedWingGains, OWN)
+    return run_process(Executable(NODE_NAME, SUMMARY, table, PlaneController), args)
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    leave(main())

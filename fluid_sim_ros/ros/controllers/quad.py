@@ -1,6 +1,5 @@
 """``quad_controller``: holds position and flies waypoints with a multirotor, in wind."""
 
-import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
@@ -9,9 +8,11 @@ from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
-from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.process.run import Executable, run_process
+from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'quad_controller'
+SUMMARY = 'Holds position and flies waypoints with a multirotor, in wind.'
 DEFAULT_SCENE = 'quadrotor'
 
 
@@ -65,8 +66,9 @@ def main(args: Sequence[str] | None = None) -> int:
         The process's exit code.
 
     """
-    return run_process(NODE_NAME, QuadController, args)
+    table = parameters.table_of(MultirotorGains, {})
+    return run_process(Executable(NODE_NAME, SUMMARY, table, QuadController), args)
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    leave(main())

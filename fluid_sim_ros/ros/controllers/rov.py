@@ -1,7 +1,6 @@
 """``rov_controller``: holds depth, heading and a level attitude with an underwater vehicle."""
 
 import math
-import sys
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
@@ -11,9 +10,13 @@ from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameters.table import Declared
-from fluid_sim_ros.ros.process import run_process
+from fluid_sim_ros.ros.process.run import Executable, run_process
+from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'rov_controller'
+SUMMARY = (
+    'Holds depth, heading and a level attitude with an underwater vehicle, and flies waypoints.'
+)
 DEFAULT_SCENE = 'rov'
 
 OWN = {
@@ -91,8 +94,9 @@ def main(args: Sequence[str] | None = None) -> int:
         The process's exit code.
 
     """
-    return run_process(NODE_NAME, RovController, args)
+    table = parameters.table_of(UnderwaterGains, OWN)
+    return run_process(Executable(NODE_NAME, SUMMARY, table, RovController), args)
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    leave(main())

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import yaml
 from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
@@ -17,6 +16,7 @@ from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.ros.raw import parameter_overrides
+from fluid_sim_ros.schema.yaml_file import parse_yaml
 
 _BUILT_IN = ('use_sim_time', 'start_type_description_service')
 
@@ -158,10 +158,10 @@ def converted(declared: Declared, value: Any) -> Any:
             return float(value)
         if isinstance(declared.default, list) and not _holds_texts(declared):
             if isinstance(value, str):
-                value = yaml.safe_load(value)
+                value = parse_yaml(value.encode(), 'a parameter')
             if not isinstance(value, str) and not any(isinstance(v, bool) for v in value):
                 return [float(v) for v in value]
-    except (TypeError, ValueError, yaml.YAMLError):
+    except (TypeError, ValueError, ConfigError):
         return value
     return value
 

@@ -1,9 +1,10 @@
 """Watches the ROS graph for what must not be there."""
 
 from collections.abc import Callable
-from typing import Any
 
 from rclpy.node import Node
+
+from fluid_sim_ros.ros.health.connections import Connections, node_name
 
 
 class GraphMonitor:
@@ -21,6 +22,8 @@ class GraphMonitor:
     ----------
     faults
         What is wrong with the graph now, one line each.
+    connections
+        Watch over topics whose qualities of service do not fit.
 
     """
 
@@ -28,6 +31,7 @@ class GraphMonitor:
         self._node = node
         self._report = report
         self.faults: tuple[str, ...] = ()
+        self.connections = Connections(node, node.get_logger().warning)
         self._timer = node.create_timer(1.0, self.read_graph)
 
     def read_graph(self) -> None:
@@ -37,7 +41,7 @@ class GraphMonitor:
         clocks = node.get_publishers_info_by_topic('/clock')
         if len(clocks) > 1:
             # this node has one publisher; the others are named
-            names = sorted({_full_name(c) for c in clocks})
+            names = sorted({node_name(c) for c in clocks})
             faults.append(f'{len(clocks)} publishers of /clock: {", ".join(names)}')
         own = (node.get_name(), node.get_namespace())
         if node.get_node_names_and_namespaces().count(own) > 1:
@@ -45,9 +49,3 @@ class GraphMonitor:
         for fault in faults:
             self._report(fault, fault)
         self.faults = tuple(faults)
-
-
-def _full_name(endpoint: Any) -> str:
-    if 'UNKNOWN' in endpoint.node_name:  # discovery has its topic, but not yet its node
-        return '(a node that is still being discovered)'
-    return f'{endpoint.node_namespace.rstrip("/")}/{endpoint.node_name}'

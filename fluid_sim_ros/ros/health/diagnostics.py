@@ -1,14 +1,12 @@
 """What the node says of itself on /diagnostics, once per second of wall time."""
 
-import time
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 
 from fluid_sim_ros.errors import listed
@@ -17,13 +15,17 @@ from fluid_sim_ros.loop.pacing import Lockstep, RealTime
 from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.loop.watchdogs import Watchdogs
+from fluid_sim_ros.messages.topic import STATE
 from fluid_sim_ros.physics.reynolds import reynolds_number
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.ros.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.health.speed_watch import SpeedWatch
 from fluid_sim_ros.ros.inputs import Inputs
-from fluid_sim_ros.sensors import SensorSuite
+from fluid_sim_ros.ros.outputs import Outputs
+from fluid_sim_ros.ros.raw import RawPublisher
 from fluid_sim_ros.simulation import Simulation
 
+DIAGNOSTICS = 'diagnostic_msgs/msg/DiagnosticArray'
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 _LEVELS = {'ok': _OK, 'warn': _WARN, 'error': _ERROR}
 #: MuJoCo warnings that leave the state alone but mean that something was cut short.
@@ -47,12 +49,12 @@ class Diagnostics:
         Owner of the publisher.
     simulation
         What is reported on.
-    inputs
-        The command topics.
+    inputs, outputs
+        The command topics and the state topics.
     graph
         What is known of other nodes.
-    suites
-        Sensors of each vehicle.
+    notes
+        What the start found that may not be meant.
 
     Attributes
     ----------
@@ -60,8 +62,8 @@ class Diagnostics:
         Recorder and autopilot, where there are some.
     record
         Place of /diagnostics in the log, or -1.
-    real_time_factor
-        Simulated seconds per wall second since the last publication.
+    publisher
+        Of /diagnostics.
 
     """
 
@@ -70,27 +72,25 @@ class Diagnostics:
         node: Node,
         simulation: Simulation,
         inputs: Inputs,
+        outputs: Outputs,
         graph: GraphMonitor,
-        suites: Mapping[str, SensorSuite],
+        notes: Sequence[str] = (),
     ) -> None:
         self._node = node
         self._simulation = simulation
         self._inputs = inputs
         self._graph = graph
-        self._suites = suites
+        self._outputs = outputs
+        self._notes = notes
         self.tap: RecorderPort | None = None
         self.bridge: Bridge | None = None
         self.record = -1
-        self._publisher = node.create_publisher(
-            DiagnosticArray, '/diagnostics', QoSProfile(depth=10)
-        )
-        self._wall = time.monotonic()
-        self._simulated = simulation.time
+        self.publisher = RawPublisher(node, DIAGNOSTICS, '/diagnostics', STATE)
+        self._speed = SpeedWatch(simulation, inputs, outputs, node.get_logger().warning)
         self._misses = 0
         for name, terms in simulation.terms.items():
             node.get_logger().info(f'{name}: terms: {listed(terms)}')
         self._watchdogs = Watchdogs(simulation, node.get_logger().warning)
-        self.real_time_factor = 0.0
 
     def publish(self, runner: Runner, diverged: str) -> None:
         """
@@ -104,15 +104,18 @@ class Diagnostics:
             Why the run ended, or empty.
 
         """
-        self._measure_speed()
+        self._speed.measure(runner, diverged)
         message = DiagnosticArray()
-        message.header.stamp = self._node.get_clock().now().to_msg()
+        stamp, time_ns = message.header.stamp, self._simulation.time_ns
+        stamp.sec, stamp.nanosec = divmod(time_ns, 1_000_000_000)
         message.status = [
             self._loop(runner, diverged), self._commands(), self._engine(), self._peers(),
         ]  # fmt: skip
         message.status += [
             self._vehicle(i, name) for i, name in enumerate(self._simulation.vehicles)
         ]
+        if self._notes:
+            message.status.append(self._status('start', _WARN, '; '.join(self._notes)))
         if self.bridge is not None:
             status = self.bridge.status()
             message.status.append(
@@ -121,19 +124,13 @@ class Diagnostics:
         if self.tap is not None:
             message.status.append(self._recording(self.tap))
         data = serialize_message(message)
-        self._publisher.publish(data)
+        self.publisher.publish(data)
         if self.tap is not None and self.record >= 0:
             self.tap.command(self.record, data)
 
     def destroy(self) -> None:
         """Remove the publisher from the node."""
-        self._node.destroy_publisher(self._publisher)
-
-    def _measure_speed(self) -> None:
-        now, simulated = time.monotonic(), self._simulation.time
-        if now > self._wall:
-            self.real_time_factor = (simulated - self._simulated) / (now - self._wall)
-        self._wall, self._simulated = now, simulated
+        self.publisher.destroy()
 
     def _status(self, part: str, level: Any, message: str, **values: Any) -> DiagnosticStatus:
         return DiagnosticStatus(
@@ -149,12 +146,15 @@ class Diagnostics:
         values: dict[str, Any] = {
             'time_s': f'{self._simulation.time:.9f}',
             'step': self._simulation.step_count,
-            'real_time_factor': f'{max(self.real_time_factor, 0.0):.3f}',
+            'real_time_factor': f'{max(self._speed.factor, 0.0):.3f}',
             'paused': runner.paused,
         }
         level, message = _OK, 'paused' if runner.paused else 'running'
         if isinstance(pacing, RealTime):
             values['overruns'] = pacing.overruns
+            values |= self._speed.shares
+            if self._speed.line:
+                level, message = _WARN, self._speed.line
         if isinstance(pacing, Lockstep):
             waiting = self._inputs.awaited()
             values['lockstep_waits_for'] = ', '.join(waiting)
@@ -209,8 +209,9 @@ class Diagnostics:
         return self._status('engine', _OK, 'no warnings', **values)
 
     def _peers(self) -> DiagnosticStatus:
-        faults = self._graph.faults
-        return self._status('graph', _ERROR if faults else _OK, '; '.join(faults) or 'alone')
+        faults, mismatches = self._graph.faults, self._graph.connections.mismatches
+        level = _ERROR if faults else _WARN if mismatches else _OK
+        return self._status('graph', level, '; '.join((*faults, *mismatches)) or 'alone')
 
     def _recording(self, tap: RecorderPort) -> DiagnosticStatus:
         values = {
@@ -235,7 +236,9 @@ class Diagnostics:
         if option.density > 0 and option.viscosity > 0:
             length = self._length(simulation.vehicles[name].body_id)
             reynolds = float(reynolds_number(speed, length, option.density, option.viscosity))
-        beyond = {s.config.kind: s.saturated for s in self._suites[name].sensors if s.saturated}
+        beyond = {
+            s.config.kind: s.saturated for s in self._outputs.suites[name].sensors if s.saturated
+        }
         return self._status(
             f'vehicle {name}', _OK, 'moving' if speed else 'at rest',
             terms=listed(simulation.terms[name]),

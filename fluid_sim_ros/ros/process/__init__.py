@@ -1,0 +1,1 @@
+"""A node as a process: its command line, signals, executor thread, and an orderly end."""
