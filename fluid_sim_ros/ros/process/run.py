@@ -3,11 +3,12 @@
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import rclpy
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 
 from fluid_sim_ros.errors import FluidSimError
@@ -147,7 +148,9 @@ def executor_thread(node: Any) -> Iterator[None]:
     def spin() -> None:
         # a shutdown takes from an executor what it waits for, so it stops waiting first
         while not ended.is_set():
-            executor.spin_once(_LONGEST_SPIN)
+            # what the loop's thread removes may have been on its turn already
+            with suppress(InvalidHandle):
+                executor.spin_once(_LONGEST_SPIN)
 
     thread = threading.Thread(target=spin, name='executor')
     thread.start()
