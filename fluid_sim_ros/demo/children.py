@@ -78,7 +78,15 @@ class Child:
         return f'its last lines (all in {self._log}):\n  ' + '\n  '.join(lines[-_TAIL:])
 
     def stop(self) -> int:
-        """End the process, kindly at first; return its exit code."""
+        """
+        End the process, kindly at first; return its exit code.
+
+        Returns
+        -------
+        int
+            As of the shell: negative where a signal has ended it.
+
+        """
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             if not self.running:
                 break

@@ -41,7 +41,15 @@ class CommandTap:
             self._inputs.tap.command(self._records[topic].record, data)
 
     def event(self, **change: Any) -> None:
-        """Record a change that no message made."""
+        """
+        Record a change that no message made.
+
+        Parameters
+        ----------
+        **change
+            What has changed, by name; ready for JSON.
+
+        """
         if self._inputs.tap is not None:
             self._inputs.tap.event(**change)
 
@@ -88,6 +96,8 @@ def start_autopilot(
         The node's command topics; an autopilot that takes sticks adds one.
     report
         Takes (key, line): a fault to log.
+    inform
+        Takes each line that is news but no fault.
     reset
         Puts the vehicle back to where it started.
 

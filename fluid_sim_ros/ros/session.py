@@ -121,7 +121,7 @@ class Session:
     # ---- the loop --------------------------------------------------------------------------
 
     def run(self) -> bool:
-        """Run until stopped or diverged; True when the duration of the run is over."""
+        """Return whether the run's duration is over, after running until stopped or diverged."""
         self.runner.stopped = False
         try:
             self.runner.run(self._until)
@@ -159,7 +159,7 @@ class Session:
     # ---- requests --------------------------------------------------------------------------
 
     def reset(self) -> str:
-        """Go back to the keyframe at time 0; return what to tell the caller."""
+        """Return what to tell the caller, back at the keyframe at time 0."""
         self.simulation.reset(self._settings['reset.keyframe'] or None)
         self.simulation.enable_wind(self._settings['enable_wind'])
         self.diverged = ''
@@ -195,7 +195,7 @@ class Session:
         return self._time()
 
     def step(self) -> str:
-        """Take ``step_count`` steps while paused."""
+        """Return what to tell the caller, after ``step_count`` steps while paused."""
         self._check_alive()
         if not self.runner.paused:
             raise CommandError('not paused; call ~/pause with true first')

@@ -5,8 +5,6 @@ LONGEST = 300
 #: Modules that a folder of the package may hold; these hold many small ones of one kind.
 MODULES, MORE_MODULES = 18, {'physics': 22, 'lab': 22}
 SUFFIXES = ('.py', '.cc', '.h')
-#: What is still to be split.
-LEFT: set[str] = {}
 
 
 def sources(folder):
@@ -23,7 +21,7 @@ def test_files_are_short_enough_to_read():
     assert len(paths) > 500
     lengths = {str(path.relative_to(ROOT)): lines_of(path) for path in paths}
     too_long = {name: lines for name, lines in lengths.items() if lines > LONGEST}
-    assert {name: lines for name, lines in too_long.items() if name not in LEFT} == {}
+    assert too_long == {}
 
 
 def test_folders_hold_few_enough_modules_to_look_through():
@@ -33,4 +31,4 @@ def test_folders_hold_few_enough_modules_to_look_through():
         count = sum(path.suffix in ('.py', '.cc') for path in folder.iterdir())
         if count - (folder / '__init__.py').exists() > MORE_MODULES.get(folder.name, MODULES):
             crowded[str(folder.relative_to(PACKAGE))] = count
-    assert set(crowded) <= {'plugins/src'}, crowded
+    assert crowded == {}

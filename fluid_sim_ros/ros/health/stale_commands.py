@@ -65,7 +65,15 @@ class StaleCommands:
         freshness.stale = False
 
     def expire(self) -> list[str]:
-        """Set thrust to zero where the command has become stale; return those vehicles."""
+        """
+        Set thrust to zero where the command has become stale; return those vehicles.
+
+        Returns
+        -------
+        list
+            Names of the vehicles whose command has just become stale.
+
+        """
         limit = self._settings['command_timeout']
         if not limit:
             return []
