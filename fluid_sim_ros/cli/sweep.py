@@ -72,7 +72,12 @@ def _table(result: dict[str, Any]) -> Any:
 
     from fluid_sim_ros.cli.tables import short, table_of
 
-    lines = []
+    lines = [f'warning: {line}' for line in result['warnings']]
+    if result['runs_with_warnings']:
+        lines.append(
+            f'{result["runs_with_warnings"]} runs with warnings (column warnings), such as '
+            f'{result["first_warning"]}'
+        )
     check = result.get('against_cpu')
     if check is not None:
         share = check['largest_relative']

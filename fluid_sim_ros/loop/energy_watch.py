@@ -3,8 +3,8 @@
 import mujoco
 import numpy as np
 
+from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.simulation.energy import EnergyBalance
 
 #: Simulated time between two looks [s], and their least distance in steps: a look takes as long
 #: as four steps, and eight where something is to be seen.
@@ -36,23 +36,20 @@ class EnergyWatch:
     ----------
     period
         Ticks between two looks.
-    fed, lost
-        What the integrator added, and what drag and damping took out, so far [J].
-    largest
-        Largest kinetic energy of bodies and flow [J].
 
     """
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        # one more than a multiple of ten: looks fall on every phase of a control at a usual rate
-        self.period = 10 * round(max(_FEWEST_STEPS, _PERIOD / simulation.timestep) / 10) + 1
-        mass = float(simulation.model.body_mass[1:].sum())
-        self._least = 0.5 * mass * _LEAST_SPEED**2
+        self.period = energy_period(simulation.timestep)
+        self._sums = np.zeros(3)
+        self._addresses = (
+            simulation.model._address, simulation.data._address, simulation.observed._address,
+        )  # fmt: skip
         self._restart()
 
     def _restart(self) -> None:
-        self.fed = self.lost = self.largest = 0.0
+        self._sums[:] = 0.0
         self._looked_at = self._simulation.time
 
     def take(self) -> str:
@@ -73,36 +70,8 @@ class EnergyWatch:
         self._looked_at = simulation.time
         if not passed:
             return ''
-        balance = simulation.energy_balance()
-        feed = self._refined(balance) if balance.warning else balance.feed
-        if simulation.data.ncon or simulation.observed.ncon:  # before the step, or after it
-            return ''
-        self.fed += feed * passed
-        self.lost += max(balance.dissipation, 0.0) * passed
-        self.largest = max(self.largest, balance.kinetic)
+        nat.native().energy_take(*self._addresses, passed, self._sums.ctypes.data)
         return self.judge() if simulation.time >= _FIRST_JUDGED else ''
-
-    def _refined(self, balance: EnergyBalance) -> float:
-        """
-        Return the feed [W] without the error of its measurement.
-
-        The work of the forces is taken from both ends of a step. Where they change within it, as
-        those of a stiff servo, that is off by the square of the timestep h, in which the feed of
-        an integrator is of the first order (RK4: of the fourth). So a look at h/2 parts the two.
-        """
-        option, half = self._simulation.model.opt, balance.feed
-        timestep = option.timestep
-        option.timestep = 0.5 * timestep
-        try:
-            half = self._simulation.energy_balance().feed
-        finally:
-            option.timestep = timestep
-        if self._is_rk4():
-            return (balance.feed - 4.0 * half) * 4.0 / 3.0
-        return 4.0 * half - balance.feed
-
-    def _is_rk4(self) -> bool:
-        return bool(self._simulation.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4)
 
     def judge(self) -> str:
         """
@@ -114,14 +83,58 @@ class EnergyWatch:
             One line when the integrator outweighs drag, else ''.
 
         """
-        share = abs(self.fed)
-        if self.largest < self._least or not np.isfinite(share):
-            return ''
-        if share <= max(self.lost, _NOTABLE * self.largest):
-            return ''
-        verb = 'added' if self.fed > 0 else 'taken'
-        return (
-            f'energy watchdog: by t = {self._simulation.time:g} s the integrator has {verb} '
-            f'{share / self.largest:.0%} of the largest kinetic energy by itself, more than drag '
-            f'took out; use {"" if self._is_rk4() else "RK4 or "}a smaller timestep'
-        )
+        return energy_line(self._simulation.model, self._simulation.time, *self._sums.tolist())
+
+
+def energy_period(timestep: float) -> int:
+    """
+    Return the steps between two looks at the energy.
+
+    Parameters
+    ----------
+    timestep
+        [s].
+
+    Returns
+    -------
+    int
+        One more than a multiple of ten: looks fall on every phase of a control at a usual rate.
+
+    """
+    return 10 * round(max(_FEWEST_STEPS, _PERIOD / timestep) / 10) + 1
+
+
+def energy_line(
+    model: mujoco.MjModel, time: float, fed: float, lost: float, largest: float
+) -> str:
+    """
+    Judge what an integrator has done to the energy of a run.
+
+    Parameters
+    ----------
+    model
+        What was run.
+    time
+        So far [s].
+    fed, lost
+        What the integrator added, and what drag and damping took out [J].
+    largest
+        Largest kinetic energy of bodies and flow [J].
+
+    Returns
+    -------
+    str
+        One line when the integrator outweighs drag, else ''.
+
+    """
+    share = abs(fed)
+    least = 0.5 * float(model.body_mass[1:].sum()) * _LEAST_SPEED**2
+    if largest < least or not np.isfinite(share) or share <= max(lost, _NOTABLE * largest):
+        return ''
+    verb = 'added' if fed > 0 else 'taken'
+    rk4 = model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4
+    return (
+        f'energy watchdog: by t = {time:g} s the integrator has {verb} {share / largest:.0%} of '
+        'the largest kinetic energy by itself, more than drag took out; use '
+        f'{"" if rk4 else "RK4 or "}a smaller timestep'
+    )

@@ -31,7 +31,7 @@ class GridWatch:
     def __init__(self, simulation: Simulation) -> None:
         self.lines: list[str] = []
         self._simulation = simulation
-        self._idle = not _has_grid(simulation)
+        self._idle = not has_grid(simulation)
         self._seen: set[tuple[str, str, str]] = set()
         self._point, self._beyond = np.zeros(3), np.zeros((len(_STREAMS), len(AXES)))
         self._addresses = (
@@ -70,6 +70,20 @@ class GridWatch:
             )
 
 
-def _has_grid(simulation: Simulation) -> bool:
+def has_grid(simulation: Simulation) -> bool:
+    """
+    Return whether the wind or current of a simulation comes from a grid.
+
+    Parameters
+    ----------
+    simulation
+        What is asked about.
+
+    Returns
+    -------
+    bool
+        False without a ``fluid_sim.medium``.
+
+    """
     medium = medium_of(simulation.model)
     return medium is not None and any(medium.text(f'{stream}_grid') for stream in _STREAMS)

@@ -13,7 +13,7 @@ from fluid_sim_ros.simulation import Simulation
 #: Simulated time between two looks at the vehicles [s].
 _PERIOD = 0.01
 #: MuJoCo warnings that leave the state alone but mean that something was cut short.
-_CUT_SHORT = {
+CUT_SHORT = {
     mujoco.mjtWarning.mjWARN_INERTIA: 'the mass matrix is nearly singular: check the inertias',
     mujoco.mjtWarning.mjWARN_CONTACTFULL: 'contacts were left out: raise <size memory>',
     mujoco.mjtWarning.mjWARN_CNSTRFULL: 'constraints were left out: raise <size memory>',
@@ -68,7 +68,7 @@ class Watchdogs:
             simulation.warnings.add(line)
         for line in self._limits.look():
             simulation.warnings.add(f'{line} (t = {simulation.time:g} s)')
-        for kind, meaning in _CUT_SHORT.items():
+        for kind, meaning in CUT_SHORT.items():
             if simulation.data.warning[kind].number:
                 simulation.warnings.add(f'MuJoCo: {meaning}')
         tick = simulation.tick

@@ -45,34 +45,74 @@ class LimitWatch:
         known, number = len(self.lines), 0
         look, out = native().limits, self._values.ctypes.data
         while (body := look(*self._addresses, number, out)) >= 0:
-            share, speed, extent, reynolds = self._values.tolist()
-            if share > CROSSING_SHARE and self._is_new(body, 'crossing'):
-                self.lines.append(self._crossing(body, share, speed, extent))
-            if reynolds > DRAG_CRISIS and self._is_new(body, 'drag crisis'):
-                self.lines.append(self._drag_crisis(body, reynolds))
+            for limit, line in limit_lines(self._model, body, *self._values.tolist()).items():
+                if (body, limit) not in self._said:
+                    self._said.add((body, limit))
+                    self.lines.append(line)
             number += 1
         return self.lines[known:]
 
-    def _is_new(self, body: int, limit: str) -> bool:
-        new = (body, limit) not in self._said
-        self._said.add((body, limit))
-        return new
 
-    def _title(self, body: int) -> str:
-        name = self._model.body(body).name
-        return f"body '{name}'" if name else f'body {body}'
+def limited_bodies(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[int, ...]:
+    """
+    Return the bodies whose limits the library watches.
 
-    def _crossing(self, body: int, share: float, speed: float, extent: float) -> str:
+    Parameters
+    ----------
+    model, data
+        What is stepped.
+
+    Returns
+    -------
+    tuple
+        Body ids, in the order of the library.
+
+    """
+    found: list[int] = []
+    values = np.zeros(4)
+    look, addresses = native().limits, (model._address, data._address)
+    while (body := look(*addresses, len(found), values.ctypes.data)) >= 0:
+        found.append(body)
+    return tuple(found)
+
+
+def limit_lines(
+    model: mujoco.MjModel, body: int, share: float, speed: float, extent: float, reynolds: float
+) -> dict[str, str]:
+    """
+    Return one line for each limit that a body went beyond.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    body
+        Id of the body.
+    share, speed, extent
+        Largest share of the body's extent that passed the surface in one step [-], at which speed
+        [m/s], and the extent [m].
+    reynolds
+        Largest Reynolds number of a drag that goes by it [-].
+
+    Returns
+    -------
+    dict
+        Line by limit; empty within all of them.
+
+    """
+    name = model.body(body).name
+    title, lines = f"body '{name}'" if name else f'body {body}', {}
+    if share > CROSSING_SHARE:
         enough = GOOD_CROSSING_SHARE * extent / speed
-        return (
-            f'{self._title(body)} crossed the surface at {speed:.3g} m/s, {share:.2g} of its '
-            f'{extent:.3g} m in one step: slamming and buoyancy are not resolved; use a timestep '
-            f'below {enough:.2g} s'
+        lines['crossing'] = (
+            f'{title} crossed the surface at {speed:.3g} m/s, {share:.2g} of its {extent:.3g} m '
+            f'in one step: slamming and buoyancy are not resolved; use a timestep below '
+            f'{enough:.2g} s'
         )
-
-    def _drag_crisis(self, body: int, reynolds: float) -> str:
-        return (
-            f'{self._title(body)} reached Re = {reynolds:.2g}; the drag curve of '
+    if reynolds > DRAG_CRISIS:
+        lines['drag crisis'] = (
+            f'{title} reached Re = {reynolds:.2g}; the drag curve of '
             f'drag_reynolds="brown_lawler" ends at {DRAG_CRISIS:.0e}: beyond the drag crisis a '
             'smooth sphere has down to a fifth of this drag'
         )
+    return lines

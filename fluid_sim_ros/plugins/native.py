@@ -75,7 +75,9 @@ class Native:
     the current's and the wind's grid (t, x, y, z each) and returns 1 if it does.
     ``acting_terms(model, data, body, out)`` writes 1 for each of ``terms`` that can act on a body
     into 32-bit integers; see ``plugins.acting``. ``limits(model, data, i, out) -> int`` writes
-    how far a body has left what its forces are good for; see ``plugins.limits``. See
+    how far a body has left what its forces are good for; see ``plugins.limits``;
+    ``forget_limits(model, data)`` begins anew. ``energy_take(model, data, scratch, seconds,
+    sums)`` adds up what an integrator does to the energy; see ``loop.energy_watch``. See
     plugins/src/api/ for their meaning.
 
     Parameters
@@ -111,7 +113,8 @@ class Native:
         library.fsr_raise_largest.restype = None
         self.runs: Callable[..., None] = library.fsr_runs
         library.fsr_runs.argtypes = [
-            *[pointer] * 4, *[integer] * 4, *[pointer] * 6,
+            *[pointer] * 4, *[integer] * 4, *[pointer] * 6, integer, pointer, pointer, integer,
+            pointer,
         ]  # fmt: skip
         library.fsr_runs.restype = None
         self.set_medium: Callable[[int, int, int, int], int] = library.fsr_set_medium
@@ -138,6 +141,12 @@ class Native:
         self.energy_feed: Callable[[int, int, int, int], None] = library.fsr_energy_feed
         library.fsr_energy_feed.argtypes = [pointer] * 4
         library.fsr_energy_feed.restype = None
+        self.energy_take: Callable[[int, int, int, float, int], None] = library.fsr_energy_take
+        library.fsr_energy_take.argtypes = [pointer, pointer, pointer, ctypes.c_double, pointer]
+        library.fsr_energy_take.restype = None
+        self.forget_limits: Callable[[int, int], None] = library.fsr_forget_limits
+        library.fsr_forget_limits.argtypes = [pointer, pointer]
+        library.fsr_forget_limits.restype = None
         self.thruster: Callable[[int, int, int, int], int] = library.fsr_thruster
         library.fsr_thruster.argtypes = [pointer, pointer, integer, pointer]
         library.fsr_thruster.restype = integer

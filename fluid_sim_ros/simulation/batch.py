@@ -5,6 +5,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import DivergedError
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.plugins.limits import limited_bodies
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.engine import divergence
 from fluid_sim_ros.step_clock import StepClock
@@ -30,6 +31,8 @@ class BatchRuns:
         Steps between two looks at the largest values.
     most
         Runs of one call at most.
+    watch
+        Steps between two looks at the energy.
 
     Attributes
     ----------
@@ -40,10 +43,18 @@ class BatchRuns:
         As ``engine.Largest``, shape (runs, n, 3).
     times
         At the end of each run [s].
+    energy
+        What ``energy_take`` added up over each run, shape (runs, 3).
+    warned
+        Counts of MuJoCo's warnings, shape (runs, kinds).
+    limits
+        As ``plugins.limits`` has them for each of its bodies, shape (runs, bodies, 4).
 
     """
 
-    def __init__(self, simulation: Simulation, steps: int, period: int, most: int) -> None:
+    def __init__(
+        self, simulation: Simulation, steps: int, period: int, most: int, watch: int
+    ) -> None:
         self._simulation = simulation
         self._model, self._data = simulation.model, simulation.data
         bodies = [vehicle.body_id for vehicle in simulation.vehicles.values()]
@@ -54,7 +65,11 @@ class BatchRuns:
         self._reports = np.zeros((most, 2))
         self._rows = np.zeros((most, len(bodies), nat.ROW_WIDTH))
         self._largest = np.zeros((most, len(bodies), 3))
-        self._steps, self._period = steps, period
+        self._energy = np.zeros((most, 3))
+        self._warned = np.zeros((most, int(mujoco.mjtWarning.mjNWARNING)), dtype=np.int32)
+        limited = len(limited_bodies(self._model, self._data))
+        self._limits = np.zeros((most, limited, 4))
+        self._steps, self._period, self._watch = steps, period, watch
         self._clock = StepClock(simulation.timestep)
         self.count = 0
 
@@ -66,17 +81,20 @@ class BatchRuns:
 
     def run(self) -> None:
         """Fly the runs that were taken up; their results stand until the next call."""
-        self._largest[:] = 0.0
+        self._largest[:] = self._energy[:] = 0.0
         arrays = (
             self._states, self._winds, self._done, self._reports, self._rows, self._largest,
         )  # fmt: skip
         nat.native().runs(
             self._model._address, self._data._address, self._simulation.observed._address,
             self._bases.ctypes.data, len(self._bases), self.count, self._steps, self._period,
-            *(array.ctypes.data for array in arrays),
+            *(array.ctypes.data for array in arrays), self._watch, self._energy.ctypes.data,
+            self._warned.ctypes.data, self._limits.shape[1], self._limits.ctypes.data,
         )  # fmt: skip
         flown = slice(0, self.count)
         self.rows, self.largest = self._rows[flown], self._largest[flown]
+        self.energy, self.warned = self._energy[flown], self._warned[flown]
+        self.limits = self._limits[flown]
         self.times = [self._clock.time(step) for step in self._done[flown].tolist()]
         self.count = 0
 

@@ -22,6 +22,7 @@ from fluid_sim_ros.sweep.compiled_run import (
     start,
 )
 from fluid_sim_ros.sweep.hold_controller import hold_controller
+from fluid_sim_ros.sweep.run_watch import RunWatch
 from fluid_sim_ros.sweep.sweep_file import Cases, SweepFile, Value
 
 #: Largest number of runs in a portion: what a worker that is killed loses.
@@ -42,6 +43,13 @@ class CaseRunner:
     sweep
         What is run.
 
+    Attributes
+    ----------
+    cases
+        The numbers of every run.
+    load_warnings
+        What ``check`` found at load.
+
     """
 
     def __init__(self, sweep: SweepFile) -> None:
@@ -50,6 +58,7 @@ class CaseRunner:
         self._ready: OrderedDict[tuple[Any, ...], CompiledRun] = OrderedDict()
         self._plant = plant_of(self._scene, sweep.hold.vehicle) if sweep.hold else None
         self.cases = Cases(sweep)
+        self.load_warnings: tuple[str, ...] = ()
 
     def check(self) -> int:
         """
@@ -71,6 +80,7 @@ class CaseRunner:
         start(ready.simulation, values)
         if ready.controller is not None:
             ready.controller.begin(values)
+        self.load_warnings = tuple(ready.simulation.warnings.lines)
         return ready.steps
 
     def rows(self, begin: int, end: int) -> list[Row]:
@@ -150,22 +160,32 @@ class CaseRunner:
         simulation, holds, largest = ready.simulation, ready.controller, ready.largest
         start(simulation, values)
         largest.begin()
+        ready.watch.begin()
         row: Row = {}
         if holds is not None:
             holds.begin(values)
         try:
-            while simulation.step_count < ready.steps:
-                if holds is not None:
-                    holds.answer(simulation)
-                left = ready.steps - simulation.step_count
-                simulation.step(min(ready.period, left))
-                largest.update()
+            self._go_through(ready)
         except DivergedError as error:
             row = {'status': 'diverged', 'message': str(error)}
+        row['warnings'] = ready.watch.end(complete=not row)
         row['time_s'] = simulation.time
         motion = simulation.observe(forces=False)[:, MOTION]
         row |= columns(ready, motion, largest.values)
         return row if holds is None else row | holds.columns()
+
+    @staticmethod
+    def _go_through(ready: CompiledRun) -> None:
+        """Step to the end of a run; controller, largest values and watchdogs at their steps."""
+        simulation, holds, watch = ready.simulation, ready.controller, ready.watch
+        while (now := simulation.step_count) < ready.steps:
+            if holds is not None and now % ready.period == 0:
+                holds.answer(simulation)
+            look = (now // ready.period + 1) * ready.period
+            simulation.step(min(look, watch.next_step, ready.steps) - now)
+            if simulation.step_count in (look, ready.steps):
+                ready.largest.update()
+            watch.take()
 
     def prepare(self, values: Mapping[str, Value]) -> CompiledRun:
         """
@@ -202,18 +222,22 @@ class CaseRunner:
         factors = {key.removeprefix('mass.'): factor for key, factor in masses.items()}
         scene = dataclasses.replace(self._scene, masses=factors)
         simulation = Simulation(scene, **settings.model_dump())
-        timestep = simulation.timestep
+        timestep, watch = simulation.timestep, RunWatch(simulation)
         names = tuple(f'{name}.{key}' for name in simulation.vehicles for key in COLUMNS)
         steps = whole_steps(sweep.duration or scene.duration, timestep, "key 'duration'")
         if sweep.hold is None or self._plant is None:
             period = max(1, round(1.0 / (sweep.sample_rate * timestep)))
-            undisturbed = simulation.next_change >= steps
-            many = BatchRuns(simulation, steps, period, LARGEST_PORTION) if undisturbed else None
-            return CompiledRun(simulation, steps, period, None, simulation.largest(), names, many)
+            alone = simulation.next_change < steps or watch.has_grid
+            many = None
+            if not alone:
+                many = BatchRuns(simulation, steps, period, LARGEST_PORTION, watch.period)
+            return CompiledRun(
+                simulation, steps, period, None, simulation.largest(), watch, names, many
+            )
         plant, vehicle = self._plant
         holds = hold_controller(sweep.hold, plant, vehicle.name, simulation)
         largest = simulation.largest()
-        return CompiledRun(simulation, steps, holds.period, holds, largest, names, None)
+        return CompiledRun(simulation, steps, holds.period, holds, largest, watch, names, None)
 
 
 class _Batch:
@@ -248,5 +272,8 @@ class _Batch:
             if error is not None:
                 row |= {'status': 'diverged', 'message': str(error)}
             row['time_s'] = many.times[i]
+            row['warnings'] = ready.watch.text(
+                many.times[i], many.energy[i], many.warned[i].tolist(), many.limits[i]
+            )
             row |= columns(ready, many.rows[i][:, MOTION], many.largest[i])
         return begun

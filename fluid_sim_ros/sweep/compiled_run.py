@@ -13,6 +13,7 @@ from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.batch import BatchRuns
 from fluid_sim_ros.simulation.engine import Largest
 from fluid_sim_ros.sweep.hold_controller import HoldController
+from fluid_sim_ros.sweep.run_watch import RunWatch
 from fluid_sim_ros.sweep.sweep_file import Value
 
 #: Columns of each vehicle: its motion at the end, and the largest values (engine.Largest).
@@ -41,6 +42,7 @@ class CompiledRun:
     period: int
     controller: HoldController | None
     largest: Largest
+    watch: RunWatch
     columns: tuple[str, ...]
     many: BatchRuns | None
 
@@ -98,7 +100,8 @@ def row_begun(index: int, values: Mapping[str, Value]) -> Row:
         The row, with status ``ok`` and at time 0 [s].
 
     """
-    return {'run': index, **values, 'status': 'ok', 'message': '', 'time_s': 0.0}
+    begun = {'status': 'ok', 'message': '', 'warnings': None, 'time_s': 0.0}
+    return {'run': index, **values, **begun}
 
 
 def columns(ready: CompiledRun, motion: Array, largest: Array) -> Row:

@@ -186,8 +186,8 @@ def statistics(table: pa.Table) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``status``: how many runs by their end; ``columns``: ``min``, ``median`` and ``max`` by
-        name.
+        ``status``: how many runs by their end; ``runs_with_warnings``, and the first of them as
+        ``first_warning``; ``columns``: ``min``, ``median`` and ``max`` by name.
 
     """
     ends = table.column('status').value_counts().to_pylist()
@@ -201,4 +201,13 @@ def statistics(table: pa.Table) -> dict[str, Any]:
         if len(values):
             low, middle, high = np.quantile(values, (0.0, 0.5, 1.0)).tolist()
             numbers[name] = {'min': low, 'median': middle, 'max': high}
-    return {'status': {entry['values']: entry['counts'] for entry in ends}, 'columns': numbers}
+    said = []
+    if 'warnings' in table.column_names:
+        rows = zip(table['run'].to_pylist(), table['warnings'].to_pylist(), strict=True)
+        said = [f'run {run}: {line}' for run, line in rows if line]
+    return {
+        'status': {entry['values']: entry['counts'] for entry in ends},
+        'runs_with_warnings': len(said),
+        'first_warning': said[0] if said else '',
+        'columns': numbers,
+    }

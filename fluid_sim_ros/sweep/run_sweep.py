@@ -106,6 +106,7 @@ def run_sweep(
         **who,
         'wall_s': wall,
         'table': str(results.table_path),
+        'warnings': list(runner.load_warnings),
         **statistics(table),
     }
     if worlds is not None:

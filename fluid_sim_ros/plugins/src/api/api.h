@@ -51,6 +51,11 @@ constexpr ColumnInfo kColumns[] = {
 FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report);
 FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                          int count, int forces, double* rows);
+FSR_API int fsr_limits(const mjModel* m, const mjData* d, int i, double* out);
+FSR_API void fsr_forget_limits(const mjModel* m, const mjData* d);
+FSR_API void fsr_energy_feed(const mjModel* m, const mjData* d, mjData* scratch, double* out);
+FSR_API void fsr_energy_take(mjModel* m, const mjData* d, mjData* scratch, double seconds,
+                             double* sums);
 FSR_API void fsr_raise_largest(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                                int count, const double* start, double* largest, double* rows);
 

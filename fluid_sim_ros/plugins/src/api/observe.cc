@@ -146,9 +146,9 @@ FSR_API void fsr_acting_terms(const mjModel* m, const mjData* d, int body, int* 
 }
 
 // How far body number i of those with fluid_sim forces has left what they are good for, largest
-// since the data was made: out[0] share of its extent that passed the surface in one step, out[1]
-// speed at that [m/s], out[2] extent [m], out[3] Reynolds number of a drag that goes by it. Returns
-// the body's id, or -1 beyond the last.
+// since the data was made or fsr_forget_limits: out[0] share of its extent that passed the surface
+// in one step, out[1] speed at that [m/s], out[2] extent [m], out[3] Reynolds number of a drag that
+// goes by it. Returns the body's id, or -1 beyond the last.
 FSR_API int fsr_limits(const mjModel* m, const mjData* d, int i, double* out) {
   const Assembly* assembly = FindAssembly(m, d);
   if (!assembly || i < 0 || i >= static_cast<int>(assembly->limits.size())) return -1;
@@ -158,4 +158,10 @@ FSR_API int fsr_limits(const mjModel* m, const mjData* d, int i, double* out) {
   out[2] = limits.crossing_extent;
   out[3] = limits.reynolds;
   return assembly->bodies[i].id;
+}
+
+// Begin anew with the largest values of fsr_limits.
+FSR_API void fsr_forget_limits(const mjModel* m, const mjData* d) {
+  Assembly* assembly = const_cast<Assembly*>(FindAssembly(m, d));
+  if (assembly) assembly->limits.assign(assembly->limits.size(), BodyLimits());
 }
