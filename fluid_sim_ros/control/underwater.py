@@ -1,4 +1,4 @@
-"""Depth, heading, attitude and speed (or position) hold of an underwater vehicle, fully driven."""
+"""Depth, heading, attitude and speed (or position) hold of an underwater vehicle."""
 
 import math
 from collections.abc import Sequence
@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from fluid_sim_ros.control import rotation as rot
-from fluid_sim_ros.control.allocation import Allocator
+from fluid_sim_ros.control.allocation import AXES, Allocator
+from fluid_sim_ros.control.axes import reached_axes
 from fluid_sim_ros.control.gains import Gains, gain
 from fluid_sim_ros.control.integral import Integral
 from fluid_sim_ros.control.law import ControlLaw, within
@@ -16,6 +17,11 @@ from fluid_sim_ros.errors import ConfigError
 
 #: Attitude and depth before travel: a vehicle that rolls cannot point its thrust.
 PRIORITY = (('tx', 'ty'), ('fz',), ('tz',), ('fx', 'fy'))
+#: Which axes a vehicle shall have rather than others that depend on them: attitude comes last, as
+#: the righting moment takes care of it.
+_WANTED = ('fz', 'tz', 'fx', 'fy', 'tx', 'ty')
+#: A vehicle without sway turns towards its place while that is farther than this [m].
+_AIMED = 0.5
 
 
 @dataclass(frozen=True)
@@ -74,6 +80,10 @@ class UnderwaterController(ControlLaw):
     """
     Holds depth, heading and a level attitude, and a speed or a place.
 
+    Axes that the thrusters do not reach (``lacks``) are left alone: roll and pitch to the righting
+    moment. Without sway the vehicle turns towards the place that it is to reach, and moves ahead
+    and astern only.
+
     v* = K_p (p* - p), or the speed asked for;  F = (1 + a) m (K_v (v* - v) + i) + W e_z with
     di/dt = K_i (v* - v). On SO(3) e = w* - w with w* = K_R log(R^T R_d);
     torque = (1 + a) J (K_w e + j) with dj/dt = K_j e. Integrators stand still while the
@@ -82,21 +92,35 @@ class UnderwaterController(ControlLaw):
     Parameters
     ----------
     plant
-        Mass, inertia, thrusters (rank 6).
+        Mass, inertia, thrusters.
     gains
         See `UnderwaterGains`.
+
+    Attributes
+    ----------
+    lacks
+        Axes (``allocation.AXES``) that the thrusters do not reach by themselves.
+
+    Raises
+    ------
+    ConfigError
+        If they reach none.
 
     """
 
     def __init__(self, plant: Plant, gains: UnderwaterGains | None = None) -> None:
         self.plant = plant
         self.gains = gains = gains or UnderwaterGains()
-        self.allocator = Allocator(plant.thruster_matrix, plant.thrust_limits, PRIORITY)
-        if self.allocator.rank < 6:
-            raise ConfigError(
-                f'thruster matrix: rank {self.allocator.rank}; this controller needs 6 '
-                '(thrusters for every direction)'
-            )
+        reached = reached_axes(plant.thruster_matrix, _WANTED)
+        if not reached:
+            raise ConfigError('thruster matrix: the thrusters reach no axis by themselves')
+        self.lacks = tuple(axis for axis in AXES if axis not in reached)
+        groups = [tuple(axis for axis in group if axis in reached) for group in PRIORITY]
+        self.allocator = Allocator(
+            plant.thruster_matrix, plant.thrust_limits, [group for group in groups if group]
+        )
+        self._has_force = [axis in reached for axis in AXES[:3]]
+        self._has_torque = [axis in reached for axis in AXES[3:]]
         self._integral = Integral(gains.integral, gains.max_integral)
         self._angular_integral = Integral(gains.attitude_integral, gains.max_angular_integral)
         super().__init__(self._integral, self._angular_integral)
@@ -121,14 +145,28 @@ class UnderwaterController(ControlLaw):
         self._advance(state.time)
         r_wb = rot.from_quaternion(state.quat_wb_wxyz)
         velocity_w = rot.to_world(r_wb, state.velocity_b)
+        if self.lacks:
+            target = self._within_reach(state.position_w, target)
         error_w = self._speed_error(state.position_w, velocity_w, target)
         error_b = self._rate_error(r_wb, state.omega_b, target.heading)
+        if self.lacks:
+            error_w = rot.to_world(r_wb, _kept(rot.to_body(r_wb, error_w), self._has_force))
+            error_b = _kept(error_b, self._has_torque)
         wrench_b = (*self._force(r_wb, error_w), *self._torque(error_b))
         thrusts = self.allocator.allocate(wrench_b)
         limited = self.allocator.scale < 1.0
         self._integral.keep(*error_w, limited=limited)
         self._angular_integral.keep(*error_b, limited=limited)
         return thrusts
+
+    def _within_reach(self, position_w: Sequence[float], target: DepthTarget) -> DepthTarget:
+        """Return the target with a heading towards the place, for a vehicle without sway."""
+        if target.place_w is None or 'fy' not in self.lacks:
+            return target
+        x, y = target.place_w[0] - position_w[0], target.place_w[1] - position_w[1]
+        if math.hypot(x, y) < _AIMED:
+            return target
+        return target._replace(heading=math.atan2(y, x))
 
     def _speed_error(
         self, position_w: Sequence[float], velocity_w: rot.Vector3, target: DepthTarget
@@ -184,3 +222,9 @@ class UnderwaterController(ControlLaw):
             moved * jy * (gain * error_b[1] + iy),
             moved * jz * (gain * error_b[2] + iz),
         )
+
+
+def _kept(vector: Sequence[float], keep: Sequence[bool]) -> rot.Vector3:
+    """Return a vector with zeros where an axis is not to be kept."""
+    x, y, z = (value if kept else 0.0 for value, kept in zip(vector, keep, strict=True))
+    return x, y, z

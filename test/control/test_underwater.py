@@ -102,14 +102,6 @@ def test_time_going_back_forgets_the_integrals() -> None:
     assert (dive(used, 2.0) == dive(controller(), 2.0)).all()
 
 
-def test_needs_thrusters_for_every_direction() -> None:
-    lame = dataclasses.replace(
-        PLANT, thruster_matrix=PLANT.thruster_matrix[:, :4], thrust_limits=PLANT.thrust_limits[:4]
-    )
-    with pytest.raises(ConfigError, match='rank 3; this controller needs 6'):
-        UnderwaterController(lame)
-
-
 def test_bad_gains_are_one_line() -> None:
     with pytest.raises(ConfigError, match="gain 'added_mass': -1"):
         UnderwaterGains(added_mass=-1)

@@ -2,22 +2,31 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.fins import PITCH, YAW, FinMixer
+from fluid_sim_ros.control.propulsion import Propulsion
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.torpedo import CruiseTarget, TorpedoController, TorpedoGains
+from fluid_sim_ros.errors import listed
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
 from fluid_sim_ros.ros.process.signals import leave
+from fluid_sim_ros.simulation.fin_effect import fin_effect
 
 NODE_NAME = 'auv_controller'
 SUMMARY = 'Holds depth, heading and speed with a propeller, a rudder and stern planes.'
 DEFAULT_SCENE = 'remus100'
 #: Joint actuators in the order of the law's answer.
 FINS = ('rudder', 'planes')
+#: Share of the gains' authority by which measured fins may differ and still be those.
+_AS_EXPECTED = 0.15
 
 OWN = {
     'depth': DEPTH,
@@ -32,18 +41,54 @@ OWN = {
 
 
 class AuvController(ControllerNode):
-    """Answers odometry with the thrust and the deflections of a `TorpedoController`."""
+    """
+    Answers odometry with the thrust and the deflections of a `TorpedoController`.
+
+    Fins other than a rudder and planes as the REMUS 100 has them are measured on the model:
+    whatever their number, names and signs, they are mixed so that they turn the vehicle as a
+    rudder and planes do.
+    """
 
     turn = math.pi  # it passes a waypoint in whatever direction
 
     def __init__(self) -> None:
         super().__init__(NODE_NAME, DEFAULT_SCENE, TorpedoGains, OWN)
-        self._order = self.order_of_joints(FINS)
-        self._law = TorpedoController(
-            self.plant, float(abs(self.vehicle.joint_range).min()),
-            parameters.gains(self, TorpedoGains),
-        )  # fmt: skip
+        gains = parameters.gains(self, TorpedoGains)
+        self._mixer = mixer = self._mixer_of(gains)
+        if mixer is None:
+            self._order = self.order_of_joints(FINS)
+            self.command_joints(self.vehicle.joints)
+            most = float(abs(self.vehicle.joint_range).min())
+        else:
+            self.command_joints(mixer.names)
+            most = mixer.max_deflection
+            if gains.fin_authority == TorpedoGains().fin_authority:
+                gains = replace(gains, fin_authority=mixer.authority)
+        self._propulsion = Propulsion(self.plant)
+        self._law = TorpedoController(self._propulsion.plant, most, gains)
         self._first: tuple[float, float] | None = None
+
+    def _mixer_of(self, gains: TorpedoGains) -> FinMixer | None:
+        """Measure what the fins do; None for a rudder and planes as the gains expect them."""
+        joints = self.vehicle.joints
+        effect = fin_effect(self.scene, self.vehicle)
+        if set(joints) == set(FINS):
+            rudder, planes = effect[:, joints.index('rudder')], effect[:, joints.index('planes')]
+            turns = np.array([planes[PITCH], rudder[YAW], planes[YAW], rudder[PITCH]])
+            expected = gains.fin_authority * np.array([1.0, 1.0, 0.0, 0.0])
+            if abs(turns - expected).max() < _AS_EXPECTED * gains.fin_authority:
+                return None
+        mixer = FinMixer(joints, effect, self.vehicle.joint_range)
+        self.get_logger().info(
+            f'fins {listed(mixer.names)}: {mixer.authority:.3g} 1/m^2 in pitch and yaw (measured)'
+        )
+        held = {'pitch': 'depth', 'yaw': 'heading'}
+        for axis in mixer.lacks:
+            self.warn(
+                f"the fins of '{self.vehicle.name}' do not turn it in {axis}: the {held[axis]} is "
+                'not held'
+            )
+        return mixer
 
     def read_live(self) -> None:
         """Read depth, heading and speed."""
@@ -82,7 +127,8 @@ class AuvController(ControllerNode):
             to_x, to_y, to_z = waypoint.position_w
             depth, heading = -to_z, math.atan2(to_y - y, to_x - x)
         thrust, *fins = self._law.step(state, CruiseTarget(depth, heading, speed))
-        return Answer([thrust], [fins[i] for i in self._order])
+        joints = [fins[i] for i in self._order] if self._mixer is None else self._mixer.mix(*fins)
+        return Answer(self._propulsion.thrusts(thrust), joints)
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -49,7 +49,7 @@ class Answer(NamedTuple):
     thrusts
         [N], one per thruster.
     joints
-        One per joint actuator, in its own unit; empty for a vehicle without.
+        One per joint actuator that is commanded, in its own unit.
 
     """
 
@@ -60,8 +60,11 @@ class Answer(NamedTuple):
 class _Commands:
     """Publishes commands as one list of a JointState, with a stamp."""
 
-    def __init__(self, node: Node, topic: str, member: str, count: int) -> None:
-        self._template = Template.of(JOINT_STATE, {member: [0.0] * count}, [member])
+    def __init__(
+        self, node: Node, topic: str, member: str, count: int, names: Sequence[str] = ()
+    ) -> None:
+        values = {'name': names, member: [0.0] * count}
+        self._template = Template.of(JOINT_STATE, values, [member])
         self._pack = struct.Struct(f'<{count}d').pack_into
         self.publisher = RawPublisher(node, JOINT_STATE, topic, STATE)
 
@@ -77,8 +80,9 @@ class ControllerNode(Node, ABC):
     A controller of one vehicle.
 
     Subscribes ``<vehicle>/odom`` and ``<vehicle>/cmd/waypoint`` (geometry_msgs/PoseStamped, frame
-    ``map`` or ``<vehicle>/odom``), publishes ``<vehicle>/cmd/thrust_stamped`` and, for a vehicle
-    with joint actuators, ``<vehicle>/cmd/joints``, both with the stamp of the odometry.
+    ``map`` or ``<vehicle>/odom``), publishes ``<vehicle>/cmd/thrust_stamped`` and, for a
+    controller that commands joint actuators, ``<vehicle>/cmd/joints``, both with the stamp of the
+    odometry.
 
     Parameters
     ----------
@@ -116,8 +120,8 @@ class ControllerNode(Node, ABC):
         declare(self, self._table)
         self.add_on_set_parameters_callback(self._judge)
         self.add_post_set_parameters_callback(self._take)
-        scene = self.get_parameter('scene').value or scene
-        self.plant, self.vehicle = plant_of(scene, self.get_parameter('vehicle').value)
+        self.scene = self.get_parameter('scene').value or scene
+        self.plant, self.vehicle = plant_of(self.scene, self.get_parameter('vehicle').value)
         self.plan = WaypointPlan(
             from_flat(value_of(self, self._table, 'waypoints')),
             radius=parameters.number(self, 'waypoint_radius'),
@@ -137,12 +141,27 @@ class ControllerNode(Node, ABC):
         self._thrusts = _Commands(
             self, f'{name}/cmd/thrust_stamped', 'effort', len(vehicle.thrusters)
         )
-        self._joints = None
-        if vehicle.joints:
-            self._joints = _Commands(self, f'{name}/cmd/joints', 'position', len(vehicle.joints))
-        connections = Connections(self, self.warn)
-        connections.watch([*self._states.subscriptions, self._waypoint])
-        connections.watch(c.publisher for c in (self._thrusts, self._joints) if c)
+        self._joints: _Commands | None = None
+        self._connections = Connections(self, self.warn)
+        self._connections.watch([*self._states.subscriptions, self._waypoint])
+        self._connections.watch([self._thrusts.publisher])
+
+    def command_joints(self, names: Sequence[str]) -> None:
+        """
+        Have each answer command joint actuators, too.
+
+        Parameters
+        ----------
+        names
+            Which, in the order of ``Answer.joints``.
+
+        """
+        all_in_order = tuple(names) == self.vehicle.joints
+        self._joints = _Commands(
+            self, f'{self.vehicle.name}/cmd/joints', 'position', len(names),
+            () if all_in_order else names,
+        )  # fmt: skip
+        self._connections.watch([self._joints.publisher])
 
     def order_of_joints(self, commanded: Sequence[str]) -> list[int]:
         """

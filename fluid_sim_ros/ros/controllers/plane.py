@@ -51,6 +51,7 @@ class PlaneController(ControllerNode):
     def __init__(self) -> None:
         super().__init__(NODE_NAME, DEFAULT_SCENE, FixedWingGains, OWN, medium='wind')
         self._order = self.order_of_joints(SURFACES)
+        self.command_joints(self.vehicle.joints)
         self._law = FixedWingController(
             self.plant, float(abs(self.vehicle.joint_range).min()),
             parameters.gains(self, FixedWingGains),

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.axes import NAMES
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
 from fluid_sim_ros.ros.controllers import parameters as parameters
@@ -37,6 +38,8 @@ class RovController(ControllerNode):
     def __init__(self) -> None:
         super().__init__(NODE_NAME, DEFAULT_SCENE, UnderwaterGains, OWN)
         self._law = UnderwaterController(self.plant, parameters.gains(self, UnderwaterGains))
+        if self._law.lacks:
+            self.warn(_words(self.vehicle.name, self._law.lacks))
         self._first: tuple[float, float] | None = None
 
     def read_live(self) -> None:
@@ -77,6 +80,23 @@ class RovController(ControllerNode):
             depth, heading = -waypoint.position_w[2], waypoint.yaw
         target = DepthTarget(depth, heading, (surge, sway), place)
         return Answer(self._law.step(state, target))
+
+
+def _words(vehicle: str, lacks: Sequence[str]) -> str:
+    """Return which axes a vehicle lacks, and what that means."""
+    names = ', '.join(NAMES[axis] for axis in lacks)
+    meaning = [
+        text
+        for axes, text in (
+            (('fz',), 'the depth is not held'),
+            (('tz',), 'the heading is not held'),
+            (('fx',), 'it does not move ahead'),
+            (('fy',), 'it heads for a waypoint instead of moving sideways'),
+            (('tx', 'ty'), 'its righting moment alone keeps it level'),
+        )
+        if set(axes) & set(lacks)
+    ]
+    return f"the thrusters of '{vehicle}' do not reach: {names}; {', '.join(meaning)}"
 
 
 def main(args: Sequence[str] | None = None) -> int:
