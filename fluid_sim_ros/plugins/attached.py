@@ -1,5 +1,6 @@
-"""Plugins that MuJoCo's attach has dropped from a model, found before it is compiled."""
+"""Models whose plugins MuJoCo itself loses or crashes on, found before they are compiled."""
 
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -9,6 +10,39 @@ REMEDY = (
     "MuJoCo's attach drops a plugin that is configured inside an element; give the attached model "
     'a named <instance> in <extension> and refer to it by instance="..."'
 )
+
+
+_REPLICATE = re.compile(
+    r'<replicate\b(?:(?!</replicate>).)*<plugin\b[^>]*\binstance\s*=', re.DOTALL
+)
+_ACTUATOR_PLUGIN = re.compile(r'<actuator\b(?:(?!</actuator>).)*<plugin\b', re.DOTALL)
+
+
+def crashing_replicate(mjcf: str) -> str:
+    """
+    Return one line about a model that ends MuJoCo 4.0.0 with a segmentation fault, or ''.
+
+    Its ``<replicate>`` frees the plugin names of the instances that it copies. A model whose
+    actuators have plugins, too, reads them again.
+
+    Parameters
+    ----------
+    mjcf
+        Text of the model's own file.
+
+    Returns
+    -------
+    line
+        What it is, and the remedy.
+
+    """
+    if _ACTUATOR_PLUGIN.search(mjcf) and _REPLICATE.search(mjcf):
+        return (
+            'a body with <plugin instance="..."/> inside <replicate>, beside actuators with '
+            'plugins, ends MuJoCo 4.0.0 with a segmentation fault; configure the plugin inside '
+            'the body (<plugin plugin="..."><config .../></plugin>)'
+        )
+    return ''
 
 
 def dropped_plugin(spec: mujoco.MjSpec) -> str:

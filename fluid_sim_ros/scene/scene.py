@@ -7,7 +7,7 @@ import mujoco
 
 from fluid_sim_ros.errors import ConfigError, ModelError, did_you_mean, listed
 from fluid_sim_ros.plugins import load_plugins
-from fluid_sim_ros.plugins.attached import dropped_plugin
+from fluid_sim_ros.plugins.attached import crashing_replicate, dropped_plugin
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene.fluid_models import compile_spec, force_fluid
 from fluid_sim_ros.scene.gaits import Gaits
@@ -198,6 +198,8 @@ class Scene:
 
     def read_model(self) -> mujoco.MjSpec:
         """Return the model as it is written, or raise ModelError."""
+        if crash := crashing_replicate(self._text()):
+            raise ModelError(f'{self.model_path}: {crash}')
         try:
             if self.mjcf:
                 # some are read with the text (models, flexes), the others when it is compiled
@@ -209,6 +211,11 @@ class Scene:
         if lost := dropped_plugin(spec):
             raise ModelError(f'{self.model_path}: {lost}')
         return spec
+
+    def _text(self) -> str:
+        if self.mjcf or not self.model_path.is_file():
+            return self.mjcf
+        return self.model_path.read_text(encoding='utf-8', errors='replace')
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
         files = self.vehicles

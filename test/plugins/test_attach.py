@@ -178,14 +178,33 @@ def replicated(text):
 
 
 def test_replicate_copies_named_instances():
+    """Without actuators that have plugins; see below."""
     native()
-    model = mujoco.MjModel.from_xml_string(replicated(child('.01')))
-    assert model.nu == 3
+    text = child('.01')
+    text = text[: text.index('<actuator>')] + '</mujoco>'
+    text = text.replace(f'<instance name="rotor">{keys(**ROTOR)}</instance>', '')
+    model = mujoco.MjModel.from_xml_string(replicated(text))
     instances = {int(model.body_plugin[model.body(f'hull{i}').id]) for i in range(3)}
     assert len(instances) == 3
     assert {PluginInstance(model, i).text('volume') for i in instances} == {'.01'}
     for body, terms in acting_terms(model, range(1, 4)).items():
         assert terms == ('drag', 'buoyancy'), body
+
+
+@pytest.mark.parametrize('rotor', ['instance', 'inline'])
+def test_a_replicate_that_crashes_mujoco_is_refused_before_it_does(rotor, tmp_path):
+    """Named instances of bodies in <replicate> beside actuators with plugins: use after free."""
+    path = tmp_path / 'fleet.xml'
+    path.write_text(replicated(child('.01', rotor=rotor)))
+    with pytest.raises(ModelError) as caught:
+        Simulation(path)
+    for word in (str(path), '<replicate>', 'segmentation fault', 'inside the body'):
+        assert word in str(caught.value)
+    path.write_text(replicated(child(0.02, rotor=rotor)).replace(
+        f'<instance name="hydro">{keys(volume=0.02)}</instance>', ''))  # fmt: skip
+    simulation = Simulation(path)  # the remedy
+    assert len(simulation.vehicles) == 3
+    simulation.close()
 
 
 def test_replicated_bodies_may_share_what_is_configured_inside_them():
@@ -202,12 +221,12 @@ def test_replicated_bodies_may_share_what_is_configured_inside_them():
 @pytest.mark.parametrize('way', [*WAYS, '<replicate>'])
 def test_rotors_that_are_configured_inside_their_actuators_stay_whole(way, tmp_path):
     """MuJoCo loses those of bodies only."""
-    text = child('.01', rotor='inline')
     if way == '<replicate>':
+        text = child(0.01, rotor='inline')
         native()
         model = mujoco.MjModel.from_xml_string(replicated(text))
     else:
-        model = compiled(way, tmp_path, [text] * 3)
+        model = compiled(way, tmp_path, [child('.01', rotor='inline')] * 3)
     rotors = [plugin_of_actuator(model, i, THRUSTER) for i in range(3)]
     assert len({rotor.index for rotor in rotors}) == 3
     data = mujoco.MjData(model)

@@ -60,6 +60,12 @@ bool ReadAddedMass(const mjModel* m, const Config& config, BodyFluid* out) {
       EllipsoidAddedMass(GeomEllipsoid(m, geom).semiaxes, mass, inertia);
       AddGeomMatrix(m, geom, mass, inertia, out->point, out->a);
     }
+    for (mjtNum number : out->a) {
+      if (std::isfinite(number)) continue;
+      return config.Refuse("added_mass",
+                           "6, 21 or 36 numbers: the axes of this body's ellipsoids are too "
+                           "unlike, too large or too small for auto");
+    }
   } else if (!ReadMatrix6(config, "added_mass", {6, 21, 36},
                           "auto, or 6, 21 or 36 numbers [kg], [kg m], [kg m^2]", &out->added_mass,
                           out->a) ||

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "shared/numbers.h"
 #include "shared/spatial.h"
@@ -40,7 +41,8 @@ void DividedDifference(const mjtNum r[3], int i, double* divided, double* moment
 
 double CarlsonRd(double x, double y, double z) {
   double sum = 0, power = 1;
-  while (true) {
+  // each round brings the arguments closer by a factor of four; 1000 pass all that doubles hold
+  for (int round = 0; round < 1000; ++round) {
     const double mean = 0.2 * (x + y + 3 * z);
     const double dx = (mean - x) / mean, dy = (mean - y) / mean, dz = (mean - z) / mean;
     if (std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) < 1e-3) {
@@ -59,6 +61,7 @@ double CarlsonRd(double x, double y, double z) {
     y = 0.25 * (y + lambda);
     z = 0.25 * (z + lambda);
   }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 void EllipsoidAddedMass(const mjtNum r[3], mjtNum mass[3], mjtNum inertia[3]) {

@@ -8,7 +8,8 @@
 namespace fluid_sim {
 
 // Carlson's degenerate elliptic integral of the second kind, x, y >= 0, x + y > 0, z > 0.
-// Carlson (1995), Numerical Algorithms 10:13; relative error about 1e-15.
+// Carlson (1995), Numerical Algorithms 10:13; relative error about 1e-15. NaN where the arguments
+// are so far apart, or so large or small, that doubles do not carry it.
 double CarlsonRd(double x, double y, double z);
 
 // Added masses [m^3] and moments of inertia [m^5] per unit density along the axes of an ellipsoid

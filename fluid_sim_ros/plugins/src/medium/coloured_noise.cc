@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "medium/noise.h"
 
@@ -11,6 +12,9 @@ namespace {
 // Order of the Taylor series of exp(A s) and b, on a step short against every time constant.
 constexpr int kTaylor = 8;
 constexpr mjtNum kShort = 1e-2;
+constexpr int kMostDoublings = 100;   // 2^100 ticks: more than any suitable time constant has
+constexpr mjtNum kMostGap = 1e6;      // ticks that are drawn one after the other
+constexpr mjtNum kMostTick = 0x1p53;  // the last that has a number of its own
 // Gauss-Legendre rule of five points on [0, 1] (exact to degree 9); Abramowitz and Stegun 25.4.30.
 constexpr mjtNum kNode[5] = {0.046910077030668, 0.2307653449471585, 0.5, 0.7692346550528415,
                              0.953089922969332};
@@ -53,14 +57,18 @@ void Cholesky(int n, const mjtNum* q, mjtNum* root) {
   }
 }
 
+// A number of doublings, for NaN 0.
+int Count(mjtNum number) {
+  return number > 0 ? static_cast<int>(std::min<mjtNum>(number, kMostDoublings)) : 0;
+}
+
 // exp(A tick), the covariance of what the noise brings in one tick, and the stationary one
 // (Van Loan 1978 by doubling: every sum is of terms of one sign on the diagonal).
 void Discretise(const mjtNum* a, const mjtNum* b, mjtNum tick, Filter* f) {
   const int n = f->size;
   mjtNum fastest = 0;
   for (int i = 0; i < n * n; ++i) fastest = std::max(fastest, std::abs(a[i]));
-  const int doublings =
-      std::max(0, static_cast<int>(std::ceil(std::log2(fastest * tick / kShort))));
+  const int doublings = Count(std::ceil(std::log2(fastest * tick / kShort)));
   const mjtNum step = std::ldexp(tick, -doublings);
   mjtNum q[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
   for (int point = 0; point < 5; ++point) {
@@ -78,7 +86,7 @@ void Discretise(const mjtNum* a, const mjtNum* b, mjtNum tick, Filter* f) {
   Cholesky(n, q, f->root);
   mjtNum phi[9];
   mju_copy(phi, f->phi, n * n);
-  while (mju_norm(phi, n * n) > 1e-30) Double(n, phi, q);
+  for (int i = 0; i < kMostDoublings && mju_norm(phi, n * n) > 1e-30; ++i) Double(n, phi, q);
   Cholesky(n, q, f->start);
 }
 
@@ -145,6 +153,34 @@ void Combine(const mjtNum* row, const mjtNum w[4], const mjtNum v[4], mjtNum* va
   }
 }
 
+// x drawn from the stationary distribution at a tick from -1 on, and its outputs as the one sample.
+void Begin(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum tick,
+           const Layout& at) {
+  mjtNum normal[kMostStates];
+  Gaussians(seed, stream, static_cast<std::uint64_t>(tick + 1), noise.states, normal);
+  mjtNum* x = at.x;
+  const mjtNum* n = normal;
+  for (int i = 0; i < noise.count; ++i) {
+    const Filter& f = noise.filter[i];
+    mju_mulMatVec(x, f.start, n, f.size, f.size);
+    x += f.size;
+    n += f.size;
+  }
+  *at.tick = tick;
+  mju_zero(at.samples, kSamples * noise.outputs);
+  Append(noise, at);
+}
+
+// Draw up to a tick. Nothing is drawn for a tick without a number of its own.
+void Reach(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum tick,
+           const Layout& at) {
+  if (!(tick >= -1 && tick <= kMostTick)) return;
+  if (!(*at.tick >= -1 && tick - *at.tick <= kMostGap)) {
+    Begin(noise, seed, stream, std::max<mjtNum>(tick - kSamples, -1), at);
+  }
+  while (*at.tick < tick) Tick(noise, seed, stream, at);
+}
+
 // The cubic at a time.
 void Interpolate(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum time,
                  const mjtNum* state, mjtNum* value, mjtNum* rate) {
@@ -154,14 +190,15 @@ void Interpolate(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t s
   if (before + 2 > state[0]) {
     mju_copy(copy, state, noise.StateSize());
     const Layout at = Parts(noise, copy);
-    while (*at.tick < before + 2) Tick(noise, seed, stream, at);
+    Reach(noise, seed, stream, before + 2, at);
     state = copy;
   }
   mjtNum s = ticks - before;
   const mjtNum oldest = state[0] - kSamples + 1;
-  if (before - 1 < oldest) {
-    before = oldest + 1;
-    s = 0;
+  mjtNum first = before - 1 - oldest;            // of the four samples
+  if (!(first >= 0 && first <= kSamples - 4)) {  // beyond what is held, or NaN
+    first = first > 0 ? kSamples - 4 : 0;
+    s = first > 0 ? 1 : 0;
   }
   // Catmull-Rom: a cubic with the slopes (next - previous)/2 at both ends
   const mjtNum s2 = s * s, s3 = s2 * s;
@@ -171,7 +208,7 @@ void Interpolate(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t s
   const mjtNum v[4] = {r * (4 * s - 1 - 3 * s2), r * (9 * s2 - 10 * s), r * (8 * s - 9 * s2 + 1),
                        r * (3 * s2 - 2 * s)};
   const mjtNum* p = state + NoiseStateSize(noise.states, noise.outputs) - kSamples * noise.outputs +
-                    static_cast<int>(before - 1 - oldest) * noise.outputs;
+                    static_cast<int>(first) * noise.outputs;
   (noise.outputs == 3 ? Combine<3> : Combine<6>)(p, w, v, value, rate);
 }
 
@@ -184,6 +221,16 @@ void SetPresent(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t st
 }
 
 }  // namespace
+
+bool CheckTick(const Config& config, const char* key, const ColouredNoise& noise, mjtNum timestep) {
+  if (noise.tick * kMostTicksPerStep >= timestep) return true;
+  return config.Refuse(
+      key, "at least a thousandth of the timestep, " + std::to_string(timestep) + " [s]");
+}
+
+bool SuitsTick(const ColouredNoise& noise, mjtNum time_constant) {
+  return time_constant >= 1e-6 * noise.tick && time_constant <= 1e9 * noise.tick;
+}
 
 int ColouredNoise::StateSize() const { return NoiseStateSize(states, outputs); }
 
@@ -198,20 +245,8 @@ Filter* AddFilter(ColouredNoise* noise, int size, const mjtNum* a, const mjtNum*
 void StartNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream,
                 mjtNum* state) {
   const Layout at = Parts(noise, state);
-  mjtNum normal[kMostStates];
-  Gaussians(seed, stream, 0, noise.states, normal);
-  mjtNum* x = at.x;
-  const mjtNum* n = normal;
-  for (int i = 0; i < noise.count; ++i) {
-    const Filter& f = noise.filter[i];
-    mju_mulMatVec(x, f.start, n, f.size, f.size);
-    x += f.size;
-    n += f.size;
-  }
-  *at.tick = -1;
-  mju_zero(at.samples, kSamples * noise.outputs);
-  Append(noise, at);
-  while (*at.tick < Needed(noise, 0)) Tick(noise, seed, stream, at);
+  Begin(noise, seed, stream, -1, at);
+  Reach(noise, seed, stream, Needed(noise, 0), at);
   SetPresent(noise, seed, stream, 0, state);
 }
 
@@ -224,7 +259,7 @@ void AdvanceNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t 
   const Layout at = Parts(noise, state);
   const mjtNum needed = Needed(noise, time);
   if (needed < *at.tick) StartNoise(noise, seed, stream, state);  // the time went back
-  while (*at.tick < needed) Tick(noise, seed, stream, at);
+  Reach(noise, seed, stream, needed, at);
   SetPresent(noise, seed, stream, time, state);
 }
 

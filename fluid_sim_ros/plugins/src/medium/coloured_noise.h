@@ -13,6 +13,8 @@
 
 #include <cstdint>
 
+#include "shared/config.h"
+
 namespace fluid_sim {
 
 // x' = A x + b n(t) with white noise n of unit intensity, over one tick:
@@ -44,6 +46,16 @@ constexpr int NoiseStateSize(int states, int outputs) {
   return 2 + states + (2 + kSamples) * outputs;
 }
 
+// Ticks that one step may take: a shorter tick would make every step as long as its number says.
+constexpr mjtNum kMostTicksPerStep = 1000;
+
+// The tick is long enough for steps of this size [s]; false after one line that names `key`.
+bool CheckTick(const Config& config, const char* key, const ColouredNoise& noise, mjtNum timestep);
+
+// A time constant [s] that can be discretised on the noise's tick; in words: kSuitable.
+bool SuitsTick(const ColouredNoise& noise, mjtNum time_constant);
+constexpr char kSuitable[] = "a time constant [s] of 1e-6 to 1e9 ticks";
+
 // Add a filter x' = A x + b n of `size` states; its outputs and weights are the caller's.
 Filter* AddFilter(ColouredNoise* noise, int size, const mjtNum* a, const mjtNum* b);
 
@@ -51,7 +63,9 @@ Filter* AddFilter(ColouredNoise* noise, int size, const mjtNum* a, const mjtNum*
 void StartNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream,
                 mjtNum* state);
 
-// Bring the state to a time, so that it holds what a step from there needs.
+// Bring the state to a time, so that it holds what a step from there needs. Over a gap of more than
+// a million ticks the noise starts anew there, from its stationary distribution; where no tick has
+// a number of its own (beyond 2^53, or NaN) the last samples hold.
 void AdvanceNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum time,
                   mjtNum* state);
 

@@ -19,7 +19,7 @@ struct Place {
 
 Place Locate(const mjtNum* axis, int size, mjtNum x) {
   Place place;
-  if (size < 2 || x < axis[0]) return place;
+  if (size < 2 || !(x >= axis[0])) return place;  // NaN too
   if (x >= axis[size - 1]) {
     place.low = size - 1;
     return place;

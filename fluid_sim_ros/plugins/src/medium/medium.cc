@@ -7,7 +7,11 @@
 namespace fluid_sim {
 namespace {
 
-std::uint64_t Seed(const mjtNum* state) { return static_cast<std::uint64_t>(state[kSeed]); }
+// The state may hold anything: whoever loads it is not asked.
+std::uint64_t Seed(const mjtNum* state) {
+  return state[kSeed] >= 0 && state[kSeed] <= kMostSeed ? static_cast<std::uint64_t>(state[kSeed])
+                                                        : 0;
+}
 
 // The numbers of a stream's own in plugin_state; 0 and 1 name their noise.
 StreamDrive CurrentDrive(const Medium& medium, const mjtNum* state) {

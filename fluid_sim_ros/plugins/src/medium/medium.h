@@ -20,6 +20,8 @@
 
 namespace fluid_sim {
 
+constexpr mjtNum kMostSeed = 9007199254740992;  // 2^53: a whole number in a mjtNum
+
 // One fluid as a body meets it.
 struct Flow {
   bool lower;              // the fluid below the surface (or the only one)

@@ -7,8 +7,6 @@
 namespace fluid_sim {
 namespace {
 
-constexpr mjtNum kMostSeed = 9007199254740992;  // 2^53: a whole number in a mjtNum
-
 // Nothing moves but one velocity everywhere, opt.wind.
 bool MovesLikeOptions(const Medium& medium, const mjModel* m) {
   return medium.current.mean_only() && medium.current.profile.uniform() &&
@@ -45,7 +43,7 @@ int Vehicles(const mjModel* m, std::vector<int>* vehicle) {
 bool ReadRandom(const Config& config, const mjModel* m, Medium* medium) {
   Turbulence* turbulence = &medium->turbulence;
   const int rotation = config.Word("rotational_gust", {"none", "curl"});
-  if (rotation < 0 || !ReadTurbulence(config, medium->wind.initial, turbulence) ||
+  if (rotation < 0 || !ReadTurbulence(config, m->opt.timestep, medium->wind.initial, turbulence) ||
       !config.Number("seed", 0, kMostSeed, "a whole number >= 0, up to 2^53", &medium->seed)) {
     return false;
   }
@@ -135,8 +133,8 @@ bool ReadMedium(const mjModel* m, Medium* medium) {
     }
     medium->wind.slew = 10;
     medium->current.datum = medium->wind.datum = medium->surface;
-    if (!ReadStream(config, "current", &medium->current) ||
-        !ReadStream(config, "wind", &medium->wind) ||
+    if (!ReadStream(config, "current", m->opt.timestep, &medium->current) ||
+        !ReadStream(config, "wind", m->opt.timestep, &medium->wind) ||
         !ReadGrid(config, m, "current_grid", &medium->current_grid) ||
         !ReadGrid(config, m, "wind_grid", &medium->wind_grid) ||
         !ReadWaves(config, m, medium->has_surface, medium->surface, &medium->waves)) {

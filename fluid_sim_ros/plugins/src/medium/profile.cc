@@ -65,7 +65,7 @@ ProfileValue Profile::At(mjtNum height) const {
       return {scale * std::log(height / first_), scale / height};
     }
     case kTable: {
-      if (height <= heights_.front()) return {factors_.front(), 0};
+      if (!(height > heights_.front())) return {factors_.front(), 0};  // NaN too
       if (height >= heights_.back()) return {factors_.back(), 0};
       const size_t i =
           std::upper_bound(heights_.begin(), heights_.end(), height) - heights_.begin();

@@ -124,7 +124,7 @@ void AddSignal(const Signal& signal, mjtNum time, mjtNum velocity[3], mjtNum rat
 void AddSeries(const Series& series, mjtNum time, mjtNum velocity[3], mjtNum rate[3]) {
   const std::vector<mjtNum>& times = series.times;
   if (times.empty()) return;
-  if (time <= times.front()) return mju_addTo3(velocity, series.velocities.data());
+  if (!(time > times.front())) return mju_addTo3(velocity, series.velocities.data());
   if (time >= times.back()) {
     return mju_addTo3(velocity, series.velocities.data() + series.velocities.size() - 3);
   }

@@ -14,7 +14,8 @@ constexpr int kAxes = 3;
 bool IsZero3(const mjtNum x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
 
 // sigma^2 exp(-|t|/T) per axis: x' = -x/T + sqrt(2/T) n.
-bool ReadGaussMarkov(const Config& config, const std::string& name, ColouredNoise* noise) {
+bool ReadGaussMarkov(const Config& config, const std::string& name, mjtNum timestep,
+                     ColouredNoise* noise) {
   const std::string key = name + "_gauss_markov", tick = name + "_tick";
   const char* allowed = "SX SY SZ TIME (>= 0 [m/s], TIME > 0 [s])";
   std::vector<mjtNum> numbers;
@@ -28,6 +29,8 @@ bool ReadGaussMarkov(const Config& config, const std::string& name, ColouredNois
   if (*std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[3] <= 0) {
     return config.Refuse(key.c_str(), allowed);
   }
+  if (!CheckTick(config, tick.c_str(), *noise, timestep)) return false;
+  if (!SuitsTick(*noise, numbers[3])) return config.Refuse(key.c_str(), kSuitable);
   const mjtNum a[1] = {-1 / numbers[3]}, b[1] = {std::sqrt(2 / numbers[3])};
   for (int i = 0; i < kAxes; ++i) {
     Filter* f = AddFilter(noise, 1, a, b);
@@ -39,7 +42,7 @@ bool ReadGaussMarkov(const Config& config, const std::string& name, ColouredNois
 
 }  // namespace
 
-bool ReadStream(const Config& config, const std::string& name, Stream* stream) {
+bool ReadStream(const Config& config, const std::string& name, mjtNum timestep, Stream* stream) {
   const std::string slew = name + "_slew", profile = name + "_profile", datum = name + "_datum";
   std::vector<mjtNum> numbers;
   if (!config.Numbers(name.c_str(), {3}, "3 numbers [m/s]", &numbers)) return false;
@@ -51,7 +54,7 @@ bool ReadStream(const Config& config, const std::string& name, Stream* stream) {
          stream->profile.Parse(config, profile.c_str()) &&
          ReadSignals(config, (name + "_signal").c_str(), &stream->signals) &&
          ReadSeries(config, (name + "_series").c_str(), &stream->series) &&
-         ReadGaussMarkov(config, name, &stream->noise);
+         ReadGaussMarkov(config, name, timestep, &stream->noise);
 }
 
 int StreamNoiseSize(const Config& config, const std::string& name) {

@@ -36,7 +36,7 @@ struct Stream {
 };
 
 // Read the keys NAME and NAME_*; false after one line of explanation.
-bool ReadStream(const Config& config, const std::string& name, Stream* stream);
+bool ReadStream(const Config& config, const std::string& name, mjtNum timestep, Stream* stream);
 
 // Numbers in plugin_state for the Gauss-Markov process, from the keys alone.
 int StreamNoiseSize(const Config& config, const std::string& name);

@@ -163,9 +163,24 @@ bool ReadAxis(const Config& config, const mjtNum wind[3], Turbulence* t) {
   return true;
 }
 
+// The time constants that lengths and span make with the airspeed suit the tick.
+bool CheckTimes(const Config& config, const Turbulence& t) {
+  const char* length = config.Has("turbulence_length") ? "turbulence_length" : "turbulence_height";
+  Mode modes[kMostModes];
+  const int count = Modes(t.kind, modes);
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < count; ++k) {
+      if (SuitsTick(t.noise, t.length[i] * modes[k].length / t.airspeed)) continue;
+      return config.Refuse(length, std::string("over turbulence_airspeed, ") + kSuitable);
+    }
+  }
+  if (t.span <= 0 || SuitsTick(t.noise, t.span / t.airspeed)) return true;
+  return config.Refuse("turbulence_span", std::string("over turbulence_airspeed, ") + kSuitable);
+}
+
 }  // namespace
 
-bool ReadTurbulence(const Config& config, const mjtNum wind[3], Turbulence* t) {
+bool ReadTurbulence(const Config& config, mjtNum timestep, const mjtNum wind[3], Turbulence* t) {
   const int kind = config.Word("turbulence", {"none", "dryden", "von_karman"});
   if (kind < 0) return false;
   t->kind = static_cast<Turbulence::Kind>(kind);
@@ -185,6 +200,9 @@ bool ReadTurbulence(const Config& config, const mjtNum wind[3], Turbulence* t) {
                      &t->ground) ||
       !config.Number("turbulence_tick", mjMINVAL, kMostTick, "a number > 0, up to 10 [s]",
                      &t->noise.tick)) {
+    return false;
+  }
+  if (!CheckTick(config, "turbulence_tick", t->noise, timestep) || !CheckTimes(config, *t)) {
     return false;
   }
   t->noise = UnitProcesses(*t, t->length, t->airspeed);

@@ -32,7 +32,8 @@ struct Turbulence {
 };
 
 // Keys turbulence and turbulence_*; `wind` gives the axis unless turbulence_direction does.
-bool ReadTurbulence(const Config& config, const mjtNum wind[3], Turbulence* turbulence);
+bool ReadTurbulence(const Config& config, mjtNum timestep, const mjtNum wind[3],
+                    Turbulence* turbulence);
 
 // Numbers in plugin_state per vehicle, from the keys alone.
 int TurbulenceStateSize(const Config& config);

@@ -27,7 +27,7 @@ struct Line {
 
 // Rms at an altitude [ft/s] and its slope [1/s].
 Line RmsAt(const mjtNum* row, mjtNum feet) {
-  if (feet <= kAltitude[0]) return {row[0], 0};
+  if (!(feet > kAltitude[0])) return {row[0], 0};  // NaN too
   if (feet >= kAltitude[kAltitudes - 1]) return {row[kAltitudes - 1], 0};
   const int i = std::upper_bound(kAltitude, kAltitude + kAltitudes, feet) - kAltitude;
   const mjtNum slope = (row[i] - row[i - 1]) / (kAltitude[i] - kAltitude[i - 1]);

@@ -214,7 +214,7 @@ bool ReadWaves(const Config& config, const mjModel* m, bool has_surface, mjtNum 
     return false;
   }
   const mjtNum highest = BreakingHeight(choice.period, waves->depth, -gravity[2]);
-  if (choice.height > highest) {
+  if (!(choice.height <= highest)) {
     return config.Refuse("waves", "HEIGHT up to " + std::to_string(highest) +
                                       " [m]: waves of this period break there");
   }
