@@ -14,14 +14,29 @@ from typing import Any
 
 #: Longest piece of foreign text in a line for people, and longest line [characters]; most names
 #: of a list.
-MOST_TEXT, MOST_LINE, MOST_NAMES = 200, 2000, 50
+MOST_TEXT, MOST_LINE, MOST_NAMES = 200, 4000, 50
+#: Longest message of an error [characters].
+_LONGEST_MESSAGE = 10_000
 
 #: Least share of equal letters at which one word is taken for another: rovv and rov have 0.86.
 _SIMILAR = 0.7
 
 
 class FluidSimError(Exception):
-    """Base of every error that the package raises on purpose."""
+    """
+    Base of every error that the package raises on purpose.
+
+    Its message is one line without control characters, whatever texts of others are in it.
+
+    Parameters
+    ----------
+    message
+        One line.
+
+    """
+
+    def __init__(self, message: object = '') -> None:
+        super().__init__(printable(str(message), _LONGEST_MESSAGE))
 
 
 class ConfigError(FluidSimError):

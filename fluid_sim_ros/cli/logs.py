@@ -9,7 +9,8 @@ from typing import Any
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli import replay as cli_replay
 from fluid_sim_ros.cli.parser import above
-from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_bar
+from fluid_sim_ros.cli.shared import Show, add_command, made_folder, plain_text, progress_bar
+from fluid_sim_ros.output.new_file import file_names
 
 DAMAGED = 1
 
@@ -63,7 +64,6 @@ def add_parsers(commands: Any, show: Show) -> None:
 
 def _info(arguments: argparse.Namespace, show: Show) -> int:
     from rich.console import Group
-    from rich.markup import escape
     from rich.table import Column, Table
 
     from fluid_sim_ros.recording.inspect import info
@@ -71,13 +71,16 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
     result = info(arguments.log)
     table = Table(
         Column('topic', no_wrap=True), Column('type', overflow='fold'), 'messages', 'rate',
-        title=f'{result["path"]}: {result["bytes"] / 1e6:.2f} MB, '
-        f'{result["begin_s"]:.2f} to {result["end_s"]:.2f} s',
+        title=plain_text([
+            f'{result["path"]}: {result["bytes"] / 1e6:.2f} MB, '
+            f'{result["begin_s"]:.2f} to {result["end_s"]:.2f} s'
+        ]),
     )  # fmt: skip
     for name, topic in result['topics'].items():
         rate = topic['rate_hz']
         shown = '' if rate is None else f'{rate:g} Hz'
-        table.add_row(name, topic['type'].rpartition('/')[2], str(topic['messages']), shown)
+        row = (name, topic['type'].rpartition('/')[2], str(topic['messages']), shown)
+        table.add_row(*(plain_text([cell]) for cell in row))
     run = result['run']
     lines = [result['run_fault']] if run is None else [
         f'scene {run["scene"]}, seed {run["seed"]}, timestep {run["timestep"]:g} s, '
@@ -85,25 +88,21 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
         f'MuJoCo {run["versions"]["mujoco"]}'
     ]  # fmt: skip
     lines += [f'damaged: {fault}' for fault in result['faults']] or ['sound: every checksum holds']
-    show(arguments.json, Group(table, *map(escape, lines)), result)
+    show(arguments.json, Group(table, plain_text(lines)), result)
     return DAMAGED if result['faults'] else 0
 
 
 def _repair(arguments: argparse.Namespace, show: Show) -> int:
-    from rich.markup import escape
-
     from fluid_sim_ros.recording.inspect import repair
 
     result = repair(arguments.log, arguments.out)
-    lost = ''.join(f'\nlost: {line}' for line in result['lost'])
-    text = f'{result["path"]}: {result["messages"]} messages, {result["bytes"]} bytes{lost}'
-    show(arguments.json, escape(text), result)
+    lines = [f'{result["path"]}: {result["messages"]} messages, {result["bytes"]} bytes']
+    lines += [f'lost: {line}' for line in result['lost']]
+    show(arguments.json, plain_text(lines), result)
     return 0
 
 
 def _plot(arguments: argparse.Namespace, show: Show) -> int:
-    from rich.markup import escape
-
     from fluid_sim_ros.recording.inspect import about
     from fluid_sim_ros.recording.pictures import plots as pictures
     from fluid_sim_ros.recording.pictures.report import write_report
@@ -112,24 +111,21 @@ def _plot(arguments: argparse.Namespace, show: Show) -> int:
 
     log = open_log(arguments.log)
     tracks = read_tracks(log)
+    names = file_names(track.name for track in tracks.vehicles)
     with made_folder(arguments.out or log.path.parent) as folder:
         stem = folder / log.path.stem
         files = [
-            pictures.overview(
-                track, tracks, stem.with_name(f'{stem.name}_{_file_name(track.name)}.png')
-            )
-            for track in tracks.vehicles
+            pictures.overview(track, tracks, stem.with_name(f'{stem.name}_{name}.png'))
+            for track, name in zip(tracks.vehicles, names, strict=True)
         ]
         files.append(write_report(tracks, about(log), stem.with_name(f'{stem.name}.html')))
     result = {'log': str(log.path), 'files': [str(file) for file in files], 'faults': log.faults}
     lines = [*(str(file) for file in files), *(f'damaged: {fault}' for fault in log.faults)]
-    show(arguments.json, escape('\n'.join(lines)), result)
+    show(arguments.json, plain_text(lines), result)
     return DAMAGED if log.faults else 0
 
 
 def _export(arguments: argparse.Namespace, show: Show) -> int:
-    from rich.markup import escape
-
     from fluid_sim_ros.recording.export import export
     from fluid_sim_ros.recording.reader import open_log
 
@@ -139,15 +135,13 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
         files = export(log, folder, kind)
     result = {'log': str(log.path), 'files': files, 'faults': log.faults}
     lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
-    show(arguments.json, escape('\n'.join(lines)), result)
+    show(arguments.json, plain_text(lines), result)
     return DAMAGED if log.faults else 0
 
 
 def _render(arguments: argparse.Namespace, show: Show) -> int:
     # before MuJoCo is imported: no display is needed
     os.environ.setdefault('MUJOCO_GL', 'egl')
-    from rich.markup import escape
-
     from fluid_sim_ros.recording.pictures.render import FilmOptions, render
     from fluid_sim_ros.recording.reader import open_log
 
@@ -163,9 +157,5 @@ def _render(arguments: argparse.Namespace, show: Show) -> int:
         count = render(log, out, options, lambda done: progress.update(task, completed=done))
     result = {'log': str(log.path), 'file': str(out), 'pictures': count, 'faults': log.faults}
     lines = [f'{out}: {count} pictures', *(f'damaged: {fault}' for fault in log.faults)]
-    show(arguments.json, escape('\n'.join(lines)), result)
+    show(arguments.json, plain_text(lines), result)
     return DAMAGED if log.faults else 0
-
-
-def _file_name(vehicle: str) -> str:
-    return vehicle.replace('/', '_')

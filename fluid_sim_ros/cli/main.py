@@ -17,7 +17,13 @@ from fluid_sim_ros.cli import autopilot, completion, logs, run_command, sweep, v
 from fluid_sim_ros.cli.lab import advise, chart, stability
 from fluid_sim_ros.cli.parser import WRONG_INPUT, Parser
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, console
-from fluid_sim_ros.errors import DivergedError, FluidSimError, needed_for
+from fluid_sim_ros.errors import (
+    MOST_LINE,
+    DivergedError,
+    FluidSimError,
+    needed_for,
+    printable,
+)
 from fluid_sim_ros.output.json_file import write_json
 
 DIVERGED = FAILED = 1
@@ -62,7 +68,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _fail(reason: object, code: int) -> int:
-    sys.stderr.write(f'fluid_sim: {reason}\n')
+    sys.stderr.write(f'fluid_sim: {printable(str(reason), MOST_LINE)}\n')
     return code
 
 

@@ -5,10 +5,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli.parser import above
-from fluid_sim_ros.cli.shared import Show, fraction
+from fluid_sim_ros.cli.shared import Show, fraction, plain_text
 from fluid_sim_ros.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -92,8 +92,6 @@ def replay(arguments: argparse.Namespace, show: Show) -> int:
 
 
 def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
-    from rich.markup import escape
-
     from fluid_sim_ros.loop.recorder_port import selected
     from fluid_sim_ros.recording.writing.rosbag2 import recorded_topic
     from fluid_sim_ros.ros import replay as ros
@@ -126,13 +124,11 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     lines = [f'{count} messages published']
     lines += [f'left out: {name}: {reason}' for name, reason in left_out.items()]
     lines += [f'damaged: {fault}' for fault in log.faults]
-    show(arguments.json, escape('\n'.join(lines)), result)
+    show(arguments.json, plain_text(lines), result)
     return DIFFERENT if log.faults else 0
 
 
 def _resimulate(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
-    from rich.markup import escape
-
     from fluid_sim_ros.recording.replay.resimulate import resimulate
 
     if not arguments.tolerance >= 0:
@@ -154,12 +150,20 @@ def _resimulate(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
         'commands': outcome.commands,
         'compared': outcome.compared,
         'identical': not outcome.largest,
-        'difference': None if different is None else asdict(different),
+        'difference': None if different is None else _plain(asdict(different)),
         'largest': {name: _finite(value) for name, value in outcome.largest.items()},
         'notes': outcome.notes,
     }
-    show(arguments.json, escape('\n'.join(lines)), result)
+    show(arguments.json, plain_text(lines), result)
     return 0 if different is None and outcome.compared else DIFFERENT
+
+
+def _plain(fields: dict[str, Any]) -> dict[str, Any]:
+    """Return fields that JSON can hold: numbers that are not finite as texts."""
+    return {
+        key: str(value) if isinstance(value, float) and not math.isfinite(value) else value
+        for key, value in fields.items()
+    }
 
 
 def _finite(value: float) -> float | None:
@@ -167,8 +171,6 @@ def _finite(value: float) -> float | None:
 
 
 def _what_if(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
-    from rich.markup import escape
-
     from fluid_sim_ros.recording.replay.what_if import compare_flights
 
     out = arguments.out or log.path.with_name(f'{log.path.stem}_what_if.png')
@@ -180,5 +182,5 @@ def _what_if(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     ]
     lines += [f'note: {note}' for note in result['notes']]
     lines.append(f'Plots: {", ".join(result["plots"])}')
-    show(arguments.json, escape('\n'.join(lines)), result)
+    show(arguments.json, plain_text(lines), result)
     return 0

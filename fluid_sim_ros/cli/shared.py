@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli import completion
-from fluid_sim_ros.errors import ConfigError, needed_for
+from fluid_sim_ros.errors import MOST_LINE, ConfigError, needed_for, printable
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -124,6 +124,21 @@ def status_line() -> 'Progress':
         '{task.description}', markup=False, table_column=Column(no_wrap=True, overflow='ellipsis')
     )
     return Progress(text, console=console, transient=True, disable=not console.is_terminal)
+
+
+def plain_text(lines: Iterable[str]) -> str:
+    """
+    Return lines for the console: no markup, no control characters, each cut.
+
+    Parameters
+    ----------
+    lines
+        With texts of files in them.
+
+    """
+    from rich.markup import escape
+
+    return escape('\n'.join(printable(line, MOST_LINE) for line in lines))
 
 
 def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':

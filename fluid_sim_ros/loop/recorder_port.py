@@ -11,10 +11,12 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from fluid_sim_ros.errors import ConfigError, listed, needed_for
-from fluid_sim_ros.simulation import Simulation
+
+if TYPE_CHECKING:  # the writer of logs needs no MuJoCo, and starts in a tenth of the time without
+    from fluid_sim_ros.simulation import Simulation
 
 #: The part that records; it has ``open_recorder`` with the arguments of the function below.
 _PART = 'fluid_sim_ros.recording.recorder'
@@ -135,7 +137,7 @@ class RecorderPort(Protocol):
 
 
 def open_recorder(
-    simulation: Simulation, topics: Sequence[RecordedTopic], options: RecorderOptions
+    simulation: 'Simulation', topics: Sequence[RecordedTopic], options: RecorderOptions
 ) -> RecorderPort:
     """
     Begin to record a simulation.

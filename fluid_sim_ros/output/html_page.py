@@ -6,9 +6,15 @@ A page with its data inside: one HTML file that needs nothing beside it.
 
 import html
 import json
+import re
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.errors import printable
+from fluid_sim_ros.output.new_file import new_file
+
+_PLACE = re.compile(r'/\* STYLE \*/|/\* SCRIPT \*/|TITLE|DATA')
+_LONGEST_TITLE = 300
 _STYLE = Path(__file__).with_suffix('.css')
 _SCRIPT = Path(__file__).with_suffix('.js')
 
@@ -33,12 +39,22 @@ def write_page(template: Path, title: str, content: Any, path: Path) -> Path:
     Path
         The file, as given.
 
+    Raises
+    ------
+    ConfigError
+        If it cannot be written; see ``new_file``.
+
     """
     # no text of the data may end the script element
     data = json.dumps(content, allow_nan=False).replace('<', '\\u003c')
-    text = template.read_text(encoding='utf-8')
-    for place, file in (('/* STYLE */', _STYLE), ('/* SCRIPT */', _SCRIPT)):
-        text = text.replace(place, file.read_text(encoding='utf-8').strip())
-    text = text.replace('TITLE', html.escape(title)).replace('DATA', data)
-    path.write_text(text, encoding='utf-8')
+    parts = {
+        '/* STYLE */': _STYLE.read_text(encoding='utf-8').strip(),
+        '/* SCRIPT */': _SCRIPT.read_text(encoding='utf-8').strip(),
+        'TITLE': html.escape(printable(title, _LONGEST_TITLE)),
+        'DATA': data,
+    }
+    # all at once: a word in one of the parts is no place for another
+    text = _PLACE.sub(lambda match: parts[match[0]], template.read_text(encoding='utf-8'))
+    with new_file(path) as file:
+        file.write_text(text, encoding='utf-8')
     return path

@@ -5,11 +5,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
-from fluid_sim_ros.recording.decode import columns
+from fluid_sim_ros.output.new_file import file_names, new_file
 from fluid_sim_ros.recording.log import Log
+
+#: A text cell that begins with one of these is calculated by spreadsheets.
+_FORMULA = ('=', '+', '-', '@', '\t', '\r')
 
 
 def export(log: Log, folder: Path, kind: str) -> list[str]:
@@ -30,22 +32,31 @@ def export(log: Log, folder: Path, kind: str) -> list[str]:
     Returns
     -------
     list
-        Paths of the files.
+        Paths of the files; no two topics share one.
+
+    Raises
+    ------
+    LogError, ConfigError
+        If messages do not fit their definition, or a file cannot be written.
 
     """
     files = []
-    for topic in log.topics.values():
-        messages = list(log.messages([topic.name]))
-        if not messages:
+    topics = list(log.topics.values())
+    for topic, stem in zip(topics, file_names(t.name for t in topics), strict=True):
+        series = log.series(topic)
+        if not series.data:
             continue
         table: dict[str, NDArray[Any]] = {
-            'step': np.array([m.step for m in messages]),
-            'log_time_s': np.array([m.log_ns for m in messages]) / 1e9,
-            'publish_time_ns': np.array([m.publish_ns for m in messages]),
-            **columns(topic.definition, [m.data for m in messages]),
+            'step': series.steps,
+            'log_time_s': series.log_ns / 1e9,
+            'publish_time_ns': series.publish_ns,
         }
-        path = folder / f'{topic.name.strip("/").replace("/", "_")}.{kind}'
-        (_write_csv if kind == 'csv' else _write_parquet)(table, path)
+        for name, values in log.table(topic, series.data).items():
+            # a field may have the name of a column of ours
+            table[f'message.{name}' if name in table else name] = values
+        path = folder / f'{stem}.{kind}'
+        with new_file(path) as file:
+            (_write_csv if kind == 'csv' else _write_parquet)(table, file)
         files.append(str(path))
     return files
 
@@ -55,7 +66,16 @@ def _write_csv(table: Mapping[str, NDArray[Any]], path: Path) -> None:
         writer = csv.writer(stream)
         writer.writerow(table)
         # tolist gives Python numbers, whose text is the shortest that reads back the same
-        writer.writerows(zip(*(values.tolist() for values in table.values()), strict=True))
+        columns = (
+            map(_cell, values) if values.dtype == object else values.tolist()
+            for values in table.values()
+        )  # fmt: skip
+        writer.writerows(zip(*columns, strict=True))
+
+
+def _cell(text: str) -> str:
+    """Return a text that a spreadsheet does not take for a formula."""
+    return f"'{text}" if text.startswith(_FORMULA) else text
 
 
 def _write_parquet(table: Mapping[str, NDArray[Any]], path: Path) -> None:

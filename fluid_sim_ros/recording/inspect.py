@@ -6,6 +6,7 @@ from typing import Any
 
 from mcap.writer import CompressionType, Writer
 
+from fluid_sim_ros.errors import printable
 from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.reader import open_log
@@ -48,7 +49,7 @@ def count(log: Log) -> Contents:
     """
     contents = Contents({topic.name: Count() for topic in log.topics.values()})
     total = contents.total
-    for message in log.messages():
+    for message in log.messages(lost=log.faults):
         for entry in (contents.topics[message.topic], total):
             if not entry.messages:
                 entry.first_ns = entry.last_ns = message.log_ns
@@ -132,9 +133,9 @@ def about(log: Log) -> list[tuple[str, str]]:
     else:
         versions = run['versions']
         rows += [
-            ('scene', run['scene']['name']),
+            ('scene', printable(run['scene']['name'])),
             ('seed', str(run['seed'])),
-            ('timestep', f'{run["timestep"]:g} s, {run["integrator"]}'),
+            ('timestep', f'{run["timestep"]:g} s, {printable(run["integrator"])}'),
             (
                 'recorded by',
                 f'fluid_sim_ros {versions["fluid_sim_ros"]}, MuJoCo {versions["mujoco"]}',
@@ -189,15 +190,17 @@ def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[st
         for name, data in log.attachments.items():
             kind = 'application/json' if name.endswith('.json') else 'application/octet-stream'
             writer.add_attachment(0, 0, name, kind, data)
-        ids, schemas = {}, {}
+        ids: dict[str, int] = {}
+        schemas: dict[tuple[str, str], int] = {}
         for topic in log.topics.values():
-            if topic.type not in schemas:
+            key = (topic.type, topic.definition)
+            if key not in schemas:
                 text = topic.definition.encode()
-                schemas[topic.type] = writer.register_schema(topic.type, 'ros2msg', text)
-            schema = schemas[topic.type]
+                schemas[key] = writer.register_schema(topic.type, 'ros2msg', text)
+            schema = schemas[key]
             ids[topic.name] = writer.register_channel(topic.name, 'cdr', schema, topic.metadata)
         contents = Contents({name: Count() for name in ids})
-        for message in log.messages():
+        for message in log.messages(lost=log.faults):
             writer.add_message(
                 ids[message.topic], message.log_ns, message.data, message.publish_ns, message.step
             )

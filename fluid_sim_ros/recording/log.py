@@ -1,16 +1,17 @@
 """An opened log: what is in it, and its messages from those chunks that are sound."""
 
 from array import array
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import did_you_mean, listed
 from fluid_sim_ros.recording.damage import BadRecordError, LogError, reading
+from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.records import MESSAGE, MESSAGE_HEAD, Chunk, decompress, records
 
@@ -66,7 +67,9 @@ class Log:
     attachments: dict[str, bytes] = field(default_factory=dict)
     chunks: list[Chunk] = field(default_factory=list)
 
-    def messages(self, topics: Collection[str] | None = None) -> Iterator[LogMessage]:
+    def messages(
+        self, topics: Collection[str] | None = None, lost: list[str] | None = None
+    ) -> Iterator[LogMessage]:
         """
         Return messages in the order of the file.
 
@@ -74,6 +77,8 @@ class Log:
         ----------
         topics
             Full names of topics; None: all.
+        lost
+            Takes a line for each chunk that lies, which is then left behind; None: an error.
 
         Returns
         -------
@@ -93,10 +98,15 @@ class Log:
         }
         with self.path.open('rb') as stream:
             for chunk in self.chunks:
-                with reading(self.path, f'chunk at byte {chunk.at}'):
-                    stream.seek(chunk.offset)
-                    content = decompress(chunk, stream.read(chunk.size))
-                    yield from _messages(content, wanted)
+                try:
+                    with reading(self.path, f'chunk at byte {chunk.at}'):
+                        stream.seek(chunk.offset)
+                        content = decompress(chunk, stream.read(chunk.size))
+                        yield from _messages(content, wanted)
+                except LogError as error:
+                    if lost is None:
+                        raise
+                    lost.append(f'chunk at byte {chunk.at}: {error.__cause__}')
 
     def topic(self, name: str) -> LogTopic:
         """
@@ -150,6 +160,31 @@ class Log:
             series.add(message)
         return series
 
+    def table(self, topic: LogTopic, messages: Sequence[bytes]) -> dict[str, NDArray[Any]]:
+        """
+        Return one array per field of a topic's messages; see ``decode.columns``.
+
+        Parameters
+        ----------
+        topic
+            Of this log.
+        messages
+            CDR bytes of its messages.
+
+        Returns
+        -------
+        dict
+            Array of shape (messages,) by name.
+
+        Raises
+        ------
+        LogError
+            If a message does not fit the definition, or the table goes beyond a limit.
+
+        """
+        with reading(self.path, f"topic '{topic.name}'"):
+            return columns(topic.definition, messages)
+
     def description(self) -> RunDescription:
         """Return the run's description, or raise LogError."""
         with reading(self.path):
@@ -192,19 +227,25 @@ class Series:
         self.data.append(message.data)
 
     @property
-    def steps(self) -> NDArray[np.uint64]:
+    def steps(self) -> NDArray[Any]:
         """Step of each."""
-        return np.array(self._steps, dtype=np.uint64)
+        return _whole(self._steps)
 
     @property
-    def log_ns(self) -> NDArray[np.uint64]:
+    def log_ns(self) -> NDArray[Any]:
         """Simulated time of each [ns]."""
-        return np.array(self._log_ns, dtype=np.uint64)
+        return _whole(self._log_ns)
 
     @property
-    def publish_ns(self) -> NDArray[np.uint64]:
+    def publish_ns(self) -> NDArray[Any]:
         """Wall time of each [ns]."""
-        return np.array(self._publish_ns, dtype=np.uint64)
+        return _whole(self._publish_ns)
+
+
+def _whole(numbers: 'array[int]') -> NDArray[Any]:
+    """Return whole numbers, signed ones where they fit: files have other types of column else."""
+    found = np.array(numbers, dtype=np.uint64)
+    return found if (found >> np.uint64(63)).any() else found.astype(np.int64)
 
 
 def _messages(content: bytes, wanted: Mapping[int, str]) -> Iterator[LogMessage]:

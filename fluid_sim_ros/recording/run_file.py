@@ -8,6 +8,7 @@ from pydantic import ConfigDict, TypeAdapter, ValidationError, field_validator
 from fluid_sim_ros.errors import listed, printable
 from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.scene import Scene
+from fluid_sim_ros.scene.grid_files import check_packed
 from fluid_sim_ros.schema.base import Positive, Strict, Vector, validated
 from fluid_sim_ros.schema.limits import check_limit
 from fluid_sim_ros.schema.ros_names import is_topic_name
@@ -140,6 +141,9 @@ def read_scene(stated: dict[str, Any]) -> dict[str, Any]:
         fault = error.errors(include_url=False, include_input=False)[0]
         place = printable('.'.join(map(str, fault['loc'])))
         raise LogError(f"run.json: scene: key '{place}': {printable(fault['msg'])}") from None
+    for model in (*scene.wind, *scene.current):
+        if (packed := model.packed_grid()) is not None:
+            check_packed(packed)
     return {key: getattr(scene, key) for key in scene.__dataclass_fields__ if key not in BESIDE}
 
 

@@ -87,7 +87,7 @@ def _check_together(stream: str, models: Sequence[FlowModel], where: str) -> Non
     for what, names in found.items():
         if what and len(names) > 1:
             raise ConfigError(
-                f"{where}: key '{stream}': {' and '.join(names)}; one {what} at most"
+                f"{where}: key '{stream}': {' and '.join(names[:5])}; one {what} at most"
             )
 
 

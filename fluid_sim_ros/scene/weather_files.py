@@ -3,13 +3,17 @@
 import csv
 import math
 from collections.abc import Sequence
+from io import TextIOWrapper
+from itertools import islice
 from pathlib import Path
 from typing import Any, TypeVar
 
-from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.errors import ConfigError, listed, printable
 from fluid_sim_ros.scene.grid_files import pack, read_grid
+from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.flow_data import GridFile, Series
 from fluid_sim_ros.schema.flow_model import FlowModel
+from fluid_sim_ros.schema.limits import beyond, check_limit, limit
 
 Model = TypeVar('Model', bound=FlowModel)
 
@@ -73,7 +77,8 @@ def read_csv(path: Path) -> list[list[float]]:
 
     """
     try:
-        with path.open(newline='', encoding='utf-8') as file:
+        check_limit('csv_bytes', path.stat().st_size, f'{path}: size')
+        with TextIOWrapper(open_data(path), encoding='utf-8', newline='') as file:
             reader = csv.DictReader(file, skipinitialspace=True)
             names = reader.fieldnames or []
             missing = [name for name in COLUMNS if name not in names]
@@ -82,11 +87,16 @@ def read_csv(path: Path) -> list[list[float]]:
                     f"{path}: no column '{missing[0]}'; needed: {listed(COLUMNS)}; "
                     f'it has: {listed(names)}'
                 )
-            rows = [_row(path, reader.line_num, row) for row in reader]
+            most = limit('csv_rows')
+            rows = [_row(path, reader.line_num, row) for row in islice(reader, most)]
+            if next(reader, None) is not None:
+                raise beyond('csv_rows', most, f'{path}: a row more')
     except FileNotFoundError:
         raise ConfigError(f'{path}: no such file') from None
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ConfigError(f'{path}: {error}') from None
+    except OSError as error:
+        raise ConfigError(f'{path}: {error.strerror or error}') from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ConfigError(f'{path}: {printable(str(error))}') from None
     if len(rows) < 2:
         raise ConfigError(f'{path}: {len(rows)} rows; a time series needs two or more')
     for number in range(1, len(rows)):
@@ -105,9 +115,11 @@ def _row(path: Path, line: int, row: dict[str, Any]) -> list[float]:
         try:
             value = float(text)
         except (TypeError, ValueError):
-            what = 'a gap' if not text else repr(text)
+            what = 'a gap' if not text else repr(printable(text, 60))
             raise ConfigError(f"{path}: line {line}, column '{name}': {what}") from None
         if not math.isfinite(value):
-            raise ConfigError(f"{path}: line {line}, column '{name}': {text} is not finite")
+            raise ConfigError(
+                f"{path}: line {line}, column '{name}': {printable(text, 60)} is not finite"
+            )
         values.append(value)
     return values

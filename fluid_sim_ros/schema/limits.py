@@ -28,7 +28,8 @@ LIMITS = {
     'yaml_depth': Limit(40, 'levels of a YAML file'),
     'yaml_values': Limit(1_000_000, 'values of a YAML file, aliases written out'),
     'scene_events': Limit(100_000, 'events of a scene, or pending winds and currents'),
-    'csv_bytes': Limit(256 << 20, 'size of a CSV file [bytes]'),
+    'csv_bytes': Limit(64 << 20, 'size of a CSV file [bytes]'),
+    'csv_rows': Limit(500_000, 'rows of a CSV file'),
     'grid_bytes': Limit(1 << 30, 'numbers of a grid of wind or current [bytes]'),
     'expansion': Limit(100, 'times that compressed data may grow, beyond 32 MiB'),
     'log_chunk_bytes': Limit(64 << 20, 'size of a chunk of a log, decompressed [bytes]'),
@@ -43,6 +44,7 @@ LIMITS = {
     'model_elements': Limit(100_000, 'elements of the model in a log, replicas counted'),
     'model_bytes': Limit(192 << 20, 'memory for the model in a log, beyond 100 times its files'),
     'model_seconds': Limit(6, 'time to load the model in a log, beyond 2 s per MB [s]'),
+    'drawn_vehicles': Limit(100, 'vehicles of a log that are drawn'),
     'film_pictures': Limit(100_000, 'pictures of a film'),
 }
 #: Compressed data may grow to this much, whatever its size [bytes].

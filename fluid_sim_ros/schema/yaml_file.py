@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from fluid_sim_ros.errors import ConfigError, LimitError, printable
+from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.limits import beyond, check_limit, limit
 
 #: libyaml's parser where PyYAML has it, else the one in Python.
@@ -42,12 +43,12 @@ def read_yaml(path: Path) -> Any:
 
     """
     try:
-        with path.open('rb') as file:
+        with open_data(path) as file:
             text = file.read(limit('yaml_bytes') + 1)
     except FileNotFoundError:
         raise ConfigError(f'{path}: no such file') from None
     except OSError as error:
-        raise ConfigError(f'{path}: {error.strerror}') from None
+        raise ConfigError(f'{path}: {error.strerror or error}') from None
     return parse_yaml(text, str(path))
 
 

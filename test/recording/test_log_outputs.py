@@ -14,6 +14,7 @@ from fluid_sim_ros.recording.pictures.report import write_report
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.what_if import compare_flights
+from test.support import log_files as mcap
 from test.support.recorded_flights import record_flight
 
 
@@ -147,16 +148,10 @@ def test_a_failed_export_leaves_no_empty_folder(tmp_path, capsys, command):
 
 
 @pytest.mark.parametrize('kind', ['csv', 'parquet'])
-def test_an_export_that_fails_on_the_way_leaves_no_empty_folder(
-    log, tmp_path, capsys, monkeypatch, kind
-):
-    from fluid_sim_ros.recording import export as module
-    from fluid_sim_ros.recording.description import LogError
-
-    def columns(definition, messages):
-        raise LogError('a message is shorter than its definition says')
-
-    monkeypatch.setattr(module, 'columns', columns)
+def test_an_export_that_fails_on_the_way_leaves_no_empty_folder(tmp_path, capsys, kind):
+    head = mcap.schema(1, 'std_msgs/msg/Float64', 'float64 data') + mcap.channel(1, 1, '/a')
+    log = tmp_path / 'short.mcap'
+    log.write_bytes(mcap.log_of([mcap.chunk(head + mcap.message(1, 0, 0, b'\x00\x01\x00\x00'))]))
     out = tmp_path / 'new' / 'out'
     assert main(['export', str(log), f'--{kind}', str(out)]) == 2
     assert 'a message is shorter' in capsys.readouterr().err

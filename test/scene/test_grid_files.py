@@ -100,8 +100,8 @@ def fault(path):
         ({k: v for k, v in FULL.items() if k != 'v'}, "no component 'v'; needed: u, v"),
         ({'u': U, 'v': V}, 'no axis'),
         (FULL | {'v': V[:, :2]}, "component 'v': shape (2, 2, 2, 4); allowed: (2, 3, 2, 4)"),
-        (FULL | {'x': np.array(['a', 'b', 'c'])}, 'cannot be read'),
-        (FULL | {'u': np.array([{}], dtype=object)}, 'cannot be read'),
+        (FULL | {'x': np.array(['a', 'b', 'c'])}, "array 'x': <U1; must be numbers"),
+        (FULL | {'u': np.array([{}], dtype=object)}, "array 'u': object; must be numbers"),
     ],
 )  # fmt: skip
 def test_npz_faults(npz, arrays, words):

@@ -92,6 +92,8 @@ def test_a_scene_with_many_events_starts_within_a_second(tmp_path):
         begin = time.process_time()
         simulation = Simulation(scene)
         seconds.append(time.process_time() - begin)
+        if seconds[-1] < 1.0:
+            break
     assert min(seconds) < 1.0
     assert len(simulation.scene.schedule) == MANY - 1
 

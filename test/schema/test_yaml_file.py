@@ -1,7 +1,9 @@
 """YAML of others: the values that PyYAML gives, or one line; never a traceback, never a bomb."""
 
 import datetime
+import os
 import time
+from pathlib import Path
 
 import pytest
 import yaml
@@ -146,8 +148,10 @@ def test_a_limit_is_raised_by_name(monkeypatch):
 def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(ConfigError, match='no such file'):
         read_yaml(tmp_path / 'none.yaml')
-    with pytest.raises(ConfigError, match='Is a directory'):
-        read_yaml(tmp_path)
+    os.mkfifo(tmp_path / 'pipe.yaml')
+    for path in (tmp_path, tmp_path / 'pipe.yaml', Path('/dev/zero')):
+        with pytest.raises(ConfigError, match='not a regular file'):
+            read_yaml(path)
 
 
 @given(st.text('[]{}&*!<>:-?,#|"\'%@` \n\tab01.eE+~=/\\\x1b', max_size=60))

@@ -64,13 +64,13 @@ def chunk(content: bytes, compression: str = 'zstd') -> bytes:
     return record(CHUNK, head + text(compression) + struct.pack('<Q', len(data)) + data)
 
 
-def log_of(records: Iterable[bytes]) -> bytes:
-    """Return a log of records, with a summary that says nothing and right checksums."""
+def log_of(records: Iterable[bytes], summary: bytes = b'') -> bytes:
+    """Return a log of records with right checksums; its summary is that of the caller."""
     data = MAGIC + record(HEADER, text('ros2') + text('test')) + b''.join(records)
     data += record(DATA_END, struct.pack('<I', zlib.crc32(data)))
     start = len(data)
     foot = struct.pack('<BQQQ', FOOTER, 20, start, 0)
-    return data + foot + struct.pack('<I', zlib.crc32(foot)) + MAGIC
+    return data + summary + foot + struct.pack('<I', zlib.crc32(summary + foot)) + MAGIC
 
 
 def records_of(log: Log) -> tuple[dict[str, bytes], list[bytes], list[bytes]]:

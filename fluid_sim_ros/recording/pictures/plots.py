@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
 
@@ -150,7 +151,8 @@ def _beside(recorded: Track, changed: Track) -> Array:
 
 
 def _save(figure: Figure, path: Path) -> Path:
-    figure.savefig(path)
+    with new_file(path) as file:
+        figure.savefig(file)
     plt.close(figure)
     return path
 
@@ -167,6 +169,9 @@ def _path(axes: Any, tracks: list[Track]) -> None:
     axes.set_zlabel('up z', labelpad=8)
     axes.locator_params(nbins=4)
     points = np.concatenate([track.position_w for track in tracks])
+    points = points[np.isfinite(points).all(axis=1)]
+    if not len(points):
+        return
     middle = (points.max(axis=0) + points.min(axis=0)) / 2
     half = max(float(np.ptp(points, axis=0).max()) / 2, 0.1)
     limits = zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), middle, strict=True)

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.decode import columns
@@ -18,6 +19,7 @@ from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.pictures.tracks import Track, read_tracks
 from fluid_sim_ros.recording.pictures.water import add_waves
 from fluid_sim_ros.scene.vehicle import weight_in_air
+from fluid_sim_ros.schema.limits import check_limit
 from fluid_sim_ros.simulation import Simulation
 
 #: Arrow per recorded wrench: colour (red, green, blue, opacity); the same as the node's markers.
@@ -91,14 +93,15 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
         times = stage.frame_times()
         if out.suffix == '.png':
             times = times[-1:] if options.at is None else stage.time_of_still(options.at)
-        file = film_file(out, options.width, options.height, options.rate)
-        try:
-            for number, time in enumerate(times, 1):
-                file.add(stage.picture(time))
-                progress(number / len(times))
-        finally:
-            file.close()
-            stage.close()
+        with new_file(out) as temporary:
+            file = film_file(temporary, options.width, options.height, options.rate)
+            try:
+                for number, time in enumerate(times, 1):
+                    file.add(stage.picture(time))
+                    progress(number / len(times))
+            finally:
+                file.close()
+                stage.close()
     return len(times)
 
 
@@ -137,6 +140,9 @@ class _Stage:
         """Return the simulated times of the pictures [s]."""
         times = next(iter(self._tracks.values())).times
         step = self._options.speed / self._options.rate
+        if not times[-1] >= times[0]:
+            raise LogError('the times of its odometry do not rise')
+        check_limit('film_pictures', (times[-1] - times[0]) / step, 'pictures of the film')
         return np.arange(times[0], times[-1] + step / 2, step)
 
     def time_of_still(self, time: float) -> Array:

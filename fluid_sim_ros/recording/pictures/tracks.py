@@ -8,10 +8,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.recording.damage import LogError
+from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.decode import columns
-from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.recording.log import Log, Series
+from fluid_sim_ros.schema.limits import check_limit
 
+#: Larger numbers than this are not drawn; lines that are drawn of one topic.
+_LARGEST, _MOST_LINES = 1e30, 64
 _ODOMETRY, _WRENCH = 'nav_msgs/msg/Odometry', 'geometry_msgs/msg/WrenchStamped'
 
 
@@ -96,7 +99,10 @@ def track_of(name: str, times: Array, definition: str, messages: Sequence[bytes]
     table = columns(definition, messages)
 
     def pick(prefix: str, parts: str) -> Array:
-        return np.column_stack([table[f'{prefix}.{part}'] for part in parts])
+        names = [f'{prefix}.{part}' for part in parts]
+        if missing := [name for name in names if name not in table]:
+            raise LogError(f"its messages lack '{missing[0]}'")
+        return _drawable(np.column_stack([table[name] for name in names]).astype(float))
 
     return Track(
         name, times, pick('pose.pose.position', 'xyz'), pick('pose.pose.orientation', 'wxyz'),
@@ -121,53 +127,58 @@ def read_tracks(log: Log) -> Tracks:
     Raises
     ------
     LogError
-        If it holds no odometry.
+        If it holds no odometry, or messages that do not fit their definition.
 
     """
-    times: dict[str, list[int]] = {topic.name: [] for topic in log.topics.values()}
-    walls: dict[str, list[int]] = {topic.name: [] for topic in log.topics.values()}
-    data: dict[str, list[bytes]] = {topic.name: [] for topic in log.topics.values()}
-    for message in log.messages():
-        times[message.topic].append(message.log_ns)
-        walls[message.topic].append(message.publish_ns)
-        data[message.topic].append(message.data)
+    found = {
+        topic.name: Series() for topic in log.topics.values()
+        if topic.type == _ODOMETRY or '/wrench/' in topic.name or '/cmd/' in topic.name
+    }  # fmt: skip
+    for message in log.messages(found):
+        found[message.topic].add(message)
+    flown = [t for t in log.topics.values() if t.type == _ODOMETRY and found[t.name].data]
+    check_limit('drawn_vehicles', len(flown), f'{log.path}: vehicles')
     vehicles, factor = [], np.empty((0, 2))
-    for topic in log.topics.values():
-        if topic.type != _ODOMETRY or not data[topic.name]:
-            continue
+    for topic in flown:
+        series = found[topic.name]
         name = topic.name.strip('/').rpartition('/')[0]
-        seconds = np.array(times[topic.name]) / 1e9
-        track = track_of(name, seconds, topic.definition, data[topic.name])
-        _add_rest(track, log, times, data)
+        seconds = series.log_ns / 1e9
+        with reading(log.path, f"topic '{topic.name}'"):
+            track = track_of(name, seconds, topic.definition, series.data)
+        _add_rest(track, log, found)
         vehicles.append(track)
-        factor = _factor(seconds, np.array(walls[topic.name]) / 1e9)
+        factor = _factor(seconds, series.publish_ns / 1e9)
     if not vehicles:
         raise LogError(f'{log.path}: no odometry in it, nothing to draw')
     return Tracks(vehicles, factor)
 
 
-def _add_rest(
-    track: Track, log: Log, times: Mapping[str, list[int]], data: Mapping[str, list[bytes]]
-) -> None:
+def _add_rest(track: Track, log: Log, found: Mapping[str, Series]) -> None:
     """Add the wrenches and commands of a vehicle."""
     for topic in log.topics.values():
         head, _, tail = topic.name.strip('/').partition(f'{track.name}/')
-        if head or not data[topic.name]:
+        kind, _, leaf = tail.partition('/')
+        series = found.get(topic.name)
+        if head or kind not in ('wrench', 'cmd') or series is None or not series.data:
             continue
-        seconds = np.array(times[topic.name]) / 1e9
-        table = columns(topic.definition, data[topic.name])
+        table = log.table(topic, series.data)
         numbers = [
             name for name, values in table.items()
             if values.dtype.kind == 'f' and name.startswith(('wrench.', 'data', 'effort', 'pos'))
         ]  # fmt: skip
         if not numbers:
             continue
-        rows = np.column_stack([seconds, *(table[name] for name in numbers)])
-        kind, _, leaf = tail.partition('/')
-        if kind == 'wrench':
-            track.wrenches[leaf] = rows
-        elif kind == 'cmd':
+        chosen = [_drawable(table[name]) for name in numbers[:_MOST_LINES]]
+        rows = np.column_stack([series.log_ns / 1e9, *chosen])
+        if kind == 'cmd':
             track.commands[leaf] = rows
+        elif rows.shape[1] == 7:
+            track.wrenches[leaf] = rows
+
+
+def _drawable(values: Array) -> Array:
+    """Return values without those that no picture has room for."""
+    return np.where(np.abs(values) < _LARGEST, values, np.nan)
 
 
 def _factor(seconds: Array, walls: Array) -> Array:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from fluid_sim_ros.errors import printable
 from fluid_sim_ros.recording.decode import fields
 from fluid_sim_ros.recording.log import LogMessage
 
@@ -21,7 +22,7 @@ class Difference:
     def __str__(self) -> str:
         return (
             f'{self.topic} at {self.time_s:.6f} s (step {self.step}): {self.field} was '
-            f'{self.recorded!r}, is {self.simulated!r}'
+            f'{printable(self.recorded)}, is {printable(self.simulated)}'
         )
 
 

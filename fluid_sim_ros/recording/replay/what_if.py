@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.recording.damage import LogError
+from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.pictures import plots as pictures
 from fluid_sim_ros.recording.pictures.tracks import track_of
@@ -47,11 +47,14 @@ def compare_flights(log: Log, changes: Sequence[str], out: Path) -> dict[str, An
     for number, (topic, pairs) in enumerate(outcome.pairs.items()):
         name, definition = topic.strip('/').removesuffix(_ODOMETRY), log.topic(topic).definition
         times = np.array([time_ns for time_ns, _, _ in pairs]) / 1e9
-        recorded = track_of(name, times, definition, [old for _, old, _ in pairs])
-        changed = track_of(name, times, definition, [new for _, _, new in pairs])
+        with reading(log.path, f"topic '{topic}'"):
+            recorded = track_of(name, times, definition, [old for _, old, _ in pairs])
+            changed = track_of(name, times, definition, [new for _, _, new in pairs])
+        apart = np.linalg.norm(changed.position_w - recorded.position_w, axis=1)
+        if not np.isfinite(apart).all():
+            raise LogError(f"{log.path}: topic '{topic}': positions that are not finite")
         path = out.with_stem(f'{out.stem}_{number}') if number else out
         files.append(str(pictures.both_flights(recorded, changed, ', '.join(changes), path)))
-        apart = np.linalg.norm(changed.position_w - recorded.position_w, axis=1)
         largest = int(apart.argmax())
         differences[name] = {
             'largest_apart_m': float(apart[largest]),

@@ -6,10 +6,15 @@ from typing import Any
 
 import yaml
 
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.recorder_port import RecordedTopic
+from fluid_sim_ros.output.new_file import new_file
+from fluid_sim_ros.schema.yaml_file import parse_yaml
 
 #: Version of metadata.yaml that ROS 2 Jazzy writes.
 _VERSION = 9
+#: Longest text of a topic's quality of service [characters]; ours has 400.
+_LONGEST_PROFILES = 10_000
 _INFINITE = {'sec': 9223372036, 'nsec': 854775807}
 
 
@@ -79,15 +84,26 @@ def recorded_topic(name: str, kind: str, channel: Mapping[str, str]) -> Recorded
 
     """
     try:
-        offered = yaml.safe_load(channel.get('offered_qos_profiles', ''))[0]
+        offered = _profiles(channel)[0]
         reliable, durable = offered['reliability'], offered['durability']
-    except (yaml.YAMLError, TypeError, LookupError):
+    except (TypeError, LookupError):
         return RecordedTopic(name, kind)
     # words since rosbag2 of Jazzy, numbers before; the depth matters to the sender only
     return RecordedTopic(
         name, kind, reliable=reliable in ('reliable', 1),
         transient_local=durable in ('transient_local', 1),
     )  # fmt: skip
+
+
+def _profiles(channel: Mapping[str, str]) -> Any:
+    """Return the quality of service that a channel's metadata states, or an empty list."""
+    text = channel.get('offered_qos_profiles', '')
+    if len(text) > _LONGEST_PROFILES or '*' in text:  # an alias: written out it could be huge
+        return []
+    try:
+        return parse_yaml(text.encode(), '') or []
+    except ConfigError:
+        return []
 
 
 class _Plain(yaml.SafeDumper):
@@ -127,10 +143,8 @@ def write_metadata(
                 'name': channel['topic'],
                 'type': channel['type'],
                 'serialization_format': 'cdr',
-                'offered_qos_profiles': yaml.safe_load(
-                    channel['metadata']['offered_qos_profiles']
-                ),
-                'type_description_hash': channel['metadata']['topic_type_hash'],
+                'offered_qos_profiles': _profiles(channel['metadata']),
+                'type_description_hash': channel['metadata'].get('topic_type_hash', ''),
             },
             'message_count': count,
         }
@@ -156,4 +170,5 @@ def write_metadata(
         }
     }
     text = yaml.dump(content, sort_keys=False, Dumper=_Plain)
-    (path.parent / 'metadata.yaml').write_text(text, encoding='utf-8')
+    with new_file(path.parent / 'metadata.yaml') as file_:
+        file_.write_text(text, encoding='utf-8')

@@ -1,0 +1,162 @@
+"""
+What becomes of hostile files: 20,000 logs with right checksums, 2,000 scene files of each kind.
+
+Logs are mutated record by record (``test.support.hostile.logs``) and opened by the commands that
+open logs, each with its share; YAML, NPZ, NetCDF, CSV and MJCF files are loaded as a scene. Right
+is a result, or an error of ours on one printable line; wrong is a traceback, a crash, more than
+10 s of processor time (or a minute of wall time), memory beyond four times the file and 256 MiB, a
+file touched outside of the working folder, or text that a terminal acts on. Fixed seeds.
+Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--json PATH]``.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import warnings
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from benchmarks.common import ROOT, arguments, write
+from test.support.hostile.files import KINDS, hostile_file
+from test.support.hostile.judge import MOST_WALL, Outside, Verdict, children_peak, judged
+
+LOGS, FILES = 20_000, 2_000
+QUICK = 20
+#: Files that one process opens; a crash costs the rest of its portion.
+PORTION = 250
+
+
+def judge_portion(kind: str, first: int, last: int) -> None:
+    """Judge the files of some seeds; print a line of JSON for each before and after."""
+    warnings.simplefilter('ignore')
+    os.environ.setdefault('MUJOCO_GL', 'egl')
+    with tempfile.TemporaryDirectory() as folder:
+        judge = _judge_log(Path(folder)) if kind == 'log' else _judge_file(kind)
+        watched = Path(folder) / 'watched'
+        watched.mkdir()
+        outside = Outside(watched)
+        for seed in range(first, last):
+            print(json.dumps({'begun': seed}), flush=True)
+            os.chdir(outside.working)
+            verdict, command = judge(seed, outside.working)
+            os.chdir('/')
+            if outside.changed():
+                verdict.outcome = 'outside'
+            outside.clear()
+            told = vars(verdict) | {'seed': seed, 'command': command}
+            print(json.dumps(told), flush=True)
+    print(json.dumps({'children': children_peak()}), flush=True)
+
+
+def _judge_log(folder: Path) -> Any:
+    from fluid_sim_ros.recording.reader import open_log
+    from test.support.hostile.commands import command_of, judged_log
+    from test.support.hostile.logs import Mutator
+    from test.support.recorded_flights import record_flight
+
+    record_flight(folder / 'flight.mcap', 'quadrotor', seconds=0.5, seed=1)
+    mutator = Mutator(open_log(folder / 'flight.mcap'))
+
+    def judge(seed: int, working: Path) -> tuple[Verdict, str]:
+        command = command_of(seed)
+        return judged_log(mutator.log(seed), command, working), command
+
+    return judge
+
+
+def _judge_file(kind: str) -> Any:
+    from fluid_sim_ros.scene import Scene
+
+    def judge(seed: int, working: Path) -> tuple[Verdict, str]:
+        path = hostile_file(kind, seed, working)
+        size = sum(file.stat().st_size for file in working.iterdir())
+        return judged(lambda: Scene.load(path).compile(), size), 'load'
+
+    return judge
+
+
+def run_portion(kind: str, first: int, last: int) -> list[dict[str, Any]]:
+    """Judge some seeds in processes of their own, a new one after each crash."""
+    found = []
+    while first < last:
+        command = [sys.executable, '-m', __spec__.name, '--portion', f'{kind} {first} {last}']
+        patience = MOST_WALL * (last - first)
+        done = subprocess.run(
+            command, cwd=ROOT, capture_output=True, text=True, timeout=patience, check=False
+        )
+        lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{')]
+        found += [line for line in lines if 'begun' not in line]
+        begun = [line['begun'] for line in lines if 'begun' in line]
+        if done.returncode == 0:
+            break
+        seed = begun[-1] if begun else first
+        words = ' '.join(done.stderr.split())[-300:]
+        found.append(
+            {'outcome': 'crash', 'line': words, 'seconds': 0.0, 'memory': 0, 'seed': seed,
+             'command': kind}
+        )  # fmt: skip
+        first = seed + 1
+    return found
+
+
+def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return what came of the files of a kind."""
+    verdicts = [line for line in found if 'outcome' in line]
+    wrong = [line for line in verdicts if line['outcome'] not in ('read', 'refused')]
+    return {
+        'files': len(verdicts),
+        'wrong': len(wrong),
+        'outcomes': dict(Counter(line['outcome'] for line in verdicts)),
+        'commands': dict(Counter(line['command'] for line in verdicts)),
+        'most_seconds': round(max(line['seconds'] for line in verdicts), 2),
+        'most_memory_mib': round(max(line['memory'] for line in verdicts) / 2**20),
+        'most_memory_of_a_trial_mib': round(
+            max((line['children'] for line in found if 'children' in line), default=0) / 2**20
+        ),
+        'examples_of_wrong': [
+            {key: line[key] for key in ('seed', 'command', 'outcome', 'line')}
+            for line in wrong[:20]
+        ],
+    }
+
+
+def main() -> None:
+    """Measure and write the result."""
+    kinds = ('log', *KINDS)
+    options = arguments(
+        __doc__, 'hostile_files', kinds, more={'portion': 'of a process: KIND FIRST LAST'}
+    )
+    if options.portion:
+        kind, first, last = options.portion.split()
+        judge_portion(kind, int(first), int(last))
+        return
+    kept = {}
+    if options.only and options.json.exists():
+        kept = json.loads(options.json.read_text(encoding='utf-8')).get('kinds', {})
+    result: dict[str, Any] = {}
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for kind in options.only or kinds:
+            count = (LOGS if kind == 'log' else FILES) // (QUICK if options.quick else 1)
+            firsts = range(0, count, PORTION)
+            portions = pool.map(
+                lambda first, kind=kind, count=count: run_portion(
+                    kind, first, min(first + PORTION, count)
+                ),
+                firsts,
+            )
+            result[kind] = summary([line for portion in portions for line in portion])
+            print(kind, {key: result[kind][key] for key in ('files', 'outcomes', 'most_seconds')})
+    result = kept | result
+    write(options.json, {
+        'files': sum(kind['files'] for kind in result.values()),
+        'wrong': sum(kind['wrong'] for kind in result.values()),
+        'kinds': result,
+    })  # fmt: skip
+
+
+if __name__ == '__main__':
+    main()
