@@ -108,18 +108,19 @@ def add_scene(
 
 def console() -> 'Console':
     """Return the console that results are shown on."""
-    from rich.console import Console
+    from fluid_sim_ros.output.plain_console import PlainConsole
 
-    return Console()
+    return PlainConsole()
 
 
 def status_line() -> 'Progress':
     """Return a line on standard error that is written anew, in place of a bar."""
-    from rich.console import Console
     from rich.progress import Progress, TextColumn
     from rich.table import Column
 
-    console = Console(stderr=True)
+    from fluid_sim_ros.output.plain_console import PlainConsole
+
+    console = PlainConsole(stderr=True)
     text = TextColumn(
         '{task.description}', markup=False, table_column=Column(no_wrap=True, overflow='ellipsis')
     )
@@ -151,12 +152,14 @@ def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
         Of rich, between the bar and the remaining time.
 
     """
-    from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    console = Console(stderr=True)
+    from fluid_sim_ros.output.plain_console import PlainConsole
+
+    console = PlainConsole(stderr=True)
+    name = TextColumn('{task.description}', markup=False)
     return Progress(
-        TextColumn('{task.description}'), BarColumn(), *columns, TimeRemainingColumn(),
+        name, BarColumn(), *columns, TimeRemainingColumn(),
         console=console, transient=True, disable=not console.is_terminal,
     )  # fmt: skip
 

@@ -120,7 +120,7 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
     place, owner = _place(schema, fault['loc'])
     kind, message = fault['type'], fault['msg'].removeprefix('Value error, ')
     message = printable(message.replace('Input should be', 'must be'), 500)
-    key = named.format(printable(place))
+    key = _filled(named, printable(place))
     if kind == 'extra_forbidden':
         known = owner.model_fields
         hint = did_you_mean(str(fault['loc'][-1]), known)
@@ -128,10 +128,10 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
     if kind == 'missing':
         return f'missing {key}'
     if kind == 'union_tag_not_found':
-        return f'missing {named.format(printable(f"{place}.model"))}'
+        return f'missing {_filled(named, printable(f"{place}.model"))}'
     if kind == 'union_tag_invalid':
         known = fault['ctx']['expected_tags'].replace("'", '')
-        key = named.format(printable(f'{place}.model'))
+        key = _filled(named, printable(f'{place}.model'))
         tag = printable(fault['ctx']['tag'])
         return (
             f"{key}: '{tag}' is not known{did_you_mean(tag, known.split(', '))} allowed: {known}"
@@ -144,6 +144,12 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
         if got in message:
             return f'{key}: {message}'
     return f'{key}: {message} (got {got})'
+
+
+def _filled(named: str, key: str) -> str:
+    """Return how the user wrote a key; braces in the name of a file mean nothing."""
+    before, _, after = named.rpartition('{}')
+    return f'{before}{key}{after}'
 
 
 def _place(schema: type[BaseModel], location: tuple[Any, ...]) -> tuple[str, type[BaseModel]]:
