@@ -49,6 +49,7 @@ format: setup-dev
 
 docs: setup-demo
 	@PYTHONPATH=. $(BIN)/python .ci/doc_tables.py
+	@PYTHONPATH=. $(BIN)/python .ci/foxglove_layouts.py
 	@$(BIN)/python .ci/check_docs.py
 
 clean:

@@ -82,7 +82,7 @@ def _build_parser() -> Parser:
 
     run_command.add_parser(commands, _show)
     add_command(commands, 'scenes', 'list the scenes', _scenes, _show)
-    vehicle.add_parser(commands, _show)
+    vehicle.add_parsers(commands, _show)
     logs.add_parsers(commands, _show)
     for each in (chart, stability, advise):
         each.add_parser(commands, _show)

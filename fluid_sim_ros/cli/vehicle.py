@@ -1,15 +1,17 @@
-"""The subcommand of ``fluid_sim`` that makes a new vehicle."""
+"""The subcommands of ``fluid_sim`` that write files for a vehicle."""
 
 import argparse
+import json
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.cli.shared import Show, add_command
+from fluid_sim_ros.cli.shared import Show, add_command, add_scene
+from fluid_sim_ros.errors import ConfigError
 
 
-def add_parser(commands: Any, show: Show) -> None:
+def add_parsers(commands: Any, show: Show) -> None:
     """
-    Add ``new-vehicle`` to the parser of ``fluid_sim``.
+    Add ``new-vehicle`` and ``layout`` to the parser of ``fluid_sim``.
 
     Parameters
     ----------
@@ -42,6 +44,12 @@ def add_parser(commands: Any, show: Show) -> None:
     )  # fmt: skip
     new.add_argument('--out', type=Path, metavar='FOLDER', help='default: NAME')
     new.add_argument('--force', action='store_true', help='replace files that exist')
+
+    text = 'write a layout for Foxglove and Lichtblick that shows a vehicle'
+    layout = add_command(commands, 'layout', text, _layout, show)
+    add_scene(layout)
+    layout.add_argument('--vehicle', metavar='NAME', help='default: the first of the scene')
+    layout.add_argument('--out', type=Path, metavar='FILE', help='default: NAME.json')
 
 
 def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
@@ -76,4 +84,28 @@ def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
         lines.append(f'hovers on {100 * share.max():.0f} % of its thrust at most')
     lines.append(f'next: fluid_sim run {made.scene}')
     show(arguments.json, escape('\n'.join(lines)), result)
+    return 0
+
+
+def _layout(arguments: argparse.Namespace, show: Show) -> int:
+    from rich.markup import escape
+
+    from fluid_sim_ros.messages.foxglove import vehicle_layout
+    from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
+    from fluid_sim_ros.simulation import Simulation
+
+    simulation = Simulation(arguments.scene)
+    name = arguments.vehicle or next(iter(simulation.vehicles))
+    simulation.vehicle(name)  # says which there are
+    layout = vehicle_layout(StateTopics(simulation, DEFAULTS), name)
+    path = arguments.out or Path(f'{name}.json')
+    try:
+        path.write_text(json.dumps(layout, indent=1) + '\n', encoding='utf-8')
+    except OSError as error:
+        raise ConfigError(f'--out {path}: {error.strerror}') from None
+    panels = list(layout['configById'])
+    result = {'path': str(path), 'vehicle': name, 'panels': panels}
+    show(
+        arguments.json, escape(f'{path}: {", ".join(panels)}; in Foxglove: Import layout'), result
+    )
     return 0

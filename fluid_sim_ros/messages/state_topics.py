@@ -77,6 +77,23 @@ class StateTopics:
         self._add('/clock', CLOCK, 'clock.rate', {}, {}, quality=NEWEST)
         self.topics.sort(key=lambda topic: topic.needs_forces)
 
+    def thrusters(self, vehicle: str) -> tuple[str, ...]:
+        """
+        Return the thrusters of a vehicle, the last entries of its ``joint_states``.
+
+        Parameters
+        ----------
+        vehicle
+            Its name.
+
+        Returns
+        -------
+        tuple
+            Names, in the order of commands.
+
+        """
+        return self._simulation.vehicle(vehicle).thrusters
+
     def restart(self) -> None:
         """Forget every sensor's readings: the simulation was reset."""
         for suite in self.suites.values():
@@ -242,7 +259,8 @@ def _transform(parent: str, child: str) -> dict[str, Any]:
 
 def _is_single_joint(model: mujoco.MjModel, joint: int, base: int) -> bool:
     """Return whether a joint has one position and lies below a base body."""
-    if model.jnt_type[joint] not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
+    kind = int(model.jnt_type[joint])  # NumPy's own integers are in no tuple of MuJoCo's names
+    if kind not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
         return False
     body = model.jnt_bodyid[joint]
     while body > base:
