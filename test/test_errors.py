@@ -45,9 +45,9 @@ def test_a_value_that_would_fill_the_memory_costs_nothing(make):
     value = make(['x'])
     for _ in range(60):
         value = make([value] * 9)
-    begin = time.perf_counter()
+    begin = time.process_time()
     assert len(printable(value)) < 2 * MOST_TEXT
-    assert time.perf_counter() - begin < 0.1
+    assert time.process_time() - begin < 0.1
     assert len(printable(10**100_000)) < MOST_TEXT
 
 

@@ -20,10 +20,10 @@ from fluid_sim_ros.schema.yaml_file import parse_yaml, read_yaml
 
 def fault(text):
     """Return the error of a text; it must be one printable line, and quick."""
-    begin = time.perf_counter()
+    begin = time.process_time()  # other work on this machine does not count
     with pytest.raises(ConfigError) as caught:
         parse_yaml(text if isinstance(text, bytes) else text.encode(), 'a.yaml')
-    assert time.perf_counter() - begin < 5
+    assert time.process_time() - begin < 5
     line = str(caught.value)
     assert line.startswith('a.yaml: ') and line.isprintable() and len(line) < 1000
     return line
@@ -188,10 +188,10 @@ def test_no_text_ends_in_another_error(text):
 def test_a_schema_says_in_one_line_what_it_does_not_take(text, tmp_path):
     path = tmp_path / 'scene.yaml'
     path.write_text(text)
-    begin = time.perf_counter()
+    begin = time.process_time()  # other work on this machine does not count
     with pytest.raises(ConfigError) as caught:
         parse(SceneFile, read_yaml(path), path)
-    assert time.perf_counter() - begin < 5
+    assert time.process_time() - begin < 5
     line = str(caught.value)
     assert line.startswith(f'{path}: ') and line.isprintable() and len(line) < 2000
 
