@@ -49,7 +49,7 @@ def compare(
 
     """
     recorded = fields(definition, message.data)
-    simulated = fields(definition, data) if data else {}
+    simulated = of_the_same_joints(recorded, fields(definition, data) if data else {})
     largest, first = 0.0, None
     for name in recorded | simulated:
         old, new = recorded.get(name), simulated.get(name)
@@ -59,6 +59,37 @@ def compare(
             time = message.log_ns / 1e9
             first = Difference(message.topic, time, message.step, name, old, new)
     return largest, first
+
+
+def of_the_same_joints(recorded: dict[str, Any], simulated: dict[str, Any]) -> dict[str, Any]:
+    """
+    Return what a sensor_msgs/JointState says of the joints that a recorded one names.
+
+    Logs of earlier versions name thrusters alone. Other messages stay as they are, and
+    so do those that name other joints than the recorded one.
+
+    Parameters
+    ----------
+    recorded, simulated
+        Fields of both messages, by their names.
+
+    Returns
+    -------
+    dict
+        Fields of the simulated one, in the places that the recorded one has.
+
+    """
+    old = [value for name, value in recorded.items() if name.startswith('name[')]
+    new = [value for name, value in simulated.items() if name.startswith('name[')]
+    if not 0 < len(old) < len(new) or not set(old) < set(new):
+        return simulated
+    same = {name: value for name, value in simulated.items() if '[' not in name}
+    for place, joint in enumerate(old):
+        ending = f'[{new.index(joint)}]'
+        for name, value in simulated.items():
+            if name.endswith(ending):
+                same[f'{name.removesuffix(ending)}[{place}]'] = value
+    return same
 
 
 def _size(old: Any, new: Any) -> float:

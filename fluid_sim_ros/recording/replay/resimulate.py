@@ -144,6 +144,12 @@ def resimulate(
     return result
 
 
+#: Of a log that names fewer joints than the flight has; see ``compare.of_the_same_joints``.
+_OLD_JOINTS = (
+    'joint_states of this log name thrusters alone (an earlier version): those are compared'
+)
+
+
 class _Comparer:
     """Compares states, and keeps those that are asked for."""
 
@@ -181,6 +187,12 @@ class _Comparer:
         largest, first = compare(message, data, definition, self._tolerance)
         result.difference = result.difference or first
         result.largest[message.topic] = max(result.largest.get(message.topic, 0.0), largest)
+        if (
+            first is None
+            and message.topic.endswith('/joint_states')
+            and _OLD_JOINTS not in result.notes
+        ):
+            result.notes.append(_OLD_JOINTS)
 
 
 def _notes(description: RunDescription, log: Log) -> list[str]:
