@@ -158,15 +158,22 @@ def test_an_export_that_fails_on_the_way_leaves_no_empty_folder(tmp_path, capsys
     assert not out.parent.exists()
 
 
-@pytest.mark.parametrize(
-    'options', [['--camera', 'moon'], ['--size', '0', '0'], ['--at', '99', '--out', '{out}/a.png']]
-)
+@pytest.mark.parametrize('options', [['--camera', 'moon'], ['--at', '99', '--out', '{out}/a.png']])
 def test_a_film_that_cannot_be_made_leaves_no_empty_folder(log, tmp_path, capsys, options):
     out = tmp_path / 'new' / 'out'
     words = [word.format(out=out) for word in options]
     where = [] if '--out' in words else ['--out', str(out / 'a.mp4')]
     assert main(['render', str(log), *words, *where]) == 2
     assert 'render: ' in capsys.readouterr().err
+    assert not out.parent.exists()
+
+
+def test_a_film_of_no_size_is_refused_before_anything_is_made(log, tmp_path, capsys):
+    out = tmp_path / 'new' / 'out'
+    with pytest.raises(SystemExit) as ended:
+        main(['render', str(log), '--size', '0', '0', '--out', str(out / 'a.mp4')])
+    assert ended.value.code == 2
+    assert '--size: must be above 0' in capsys.readouterr().err
     assert not out.parent.exists()
 
 
