@@ -7,7 +7,7 @@ PACKAGE = 'fluid_sim_ros'
 #: Lowest first: a room imports only rooms before it, and itself.
 ORDER = (
     'errors', 'resources', 'step_clock', 'output',
-    'physics', 'control', 'plugins',
+    'physics', 'hydro', 'control', 'plugins',
     'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop',
     'new_vehicle', 'lab', 'sweep', 'recording', 'mavlink', 'ros',
     'demo', 'cli',
@@ -23,7 +23,7 @@ ROS_MODULES = (
 )  # fmt: skip
 #: Rooms that may use ROS; those that know nothing of MuJoCo.
 KNOW_ROS = ('ros', 'demo', 'cli')
-WITHOUT_MUJOCO = ('errors', 'resources', 'step_clock', 'output', 'physics', 'control')
+WITHOUT_MUJOCO = ('errors', 'resources', 'step_clock', 'output', 'physics', 'hydro', 'control')
 
 
 def room_of(module: str) -> str:

@@ -1,0 +1,1 @@
+"""Hydrodynamic coefficients of a body from its closed mesh."""

@@ -1,0 +1,1 @@
+"""Meshes of strangers: read within limits, repaired with a word, or refused in one line."""

@@ -1,0 +1,122 @@
+"""
+The process that reads one mesh file: ``python -m ... FILE SCALE RESULT``.
+
+It limits its own memory and processor time, writes the repaired solid to RESULT (npz) and one line
+of JSON to standard output.
+"""
+
+import json
+import logging
+import resource
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.hydro.meshes.reading import MEMORY, MOST_TRIANGLES, TIME_LIMIT
+from fluid_sim_ros.hydro.meshes.repair import repaired
+from fluid_sim_ros.hydro.meshes.surface import Surface
+
+#: Packages without which some formats are not read; trimesh may do without any other.
+_NEEDED = ('trimesh', 'collada', 'lxml')
+#: Instances of a mesh in a scene file, at most.
+_MOST_PIECES = 20_000
+
+
+def main() -> int:
+    """
+    Read the file of the command line.
+
+    Returns
+    -------
+    int
+        0, also where the file was refused: the line says why.
+
+    """
+    path, scale, result = Path(sys.argv[1]), float(sys.argv[2]), Path(sys.argv[3])
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (int(TIME_LIMIT), int(TIME_LIMIT)))
+    try:
+        head = _read(path, scale, result)
+    except ConfigError as error:
+        head = {'error': str(error)}
+    except MemoryError:
+        head = {'error': f'needs more than {MEMORY >> 30} GiB; export it with fewer triangles'}
+    except ModuleNotFoundError as error:
+        head = {'missing': error.name}
+    sys.stdout.write('\n' + json.dumps(head) + '\n')
+    return 0
+
+
+def _read(path: Path, scale: float, result: Path) -> dict[str, Any]:
+    pieces = _pieces(path)
+    count = sum(len(faces) for _, faces in pieces)
+    if count == 0:
+        raise ConfigError('no triangles in it')
+    if count > MOST_TRIANGLES:
+        raise ConfigError(
+            f'{count} triangles, at most {MOST_TRIANGLES} are read; export it with fewer'
+        )
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
+    vertices = np.concatenate([vertices for vertices, _ in pieces])
+    faces = np.concatenate(
+        [faces + start for (_, faces), start in zip(pieces, starts, strict=True)]
+    )
+    solid = repaired(Surface(scale * vertices, faces))
+    frame = solid.frame
+    np.savez(
+        result, vertices=solid.surface.vertices, faces=solid.surface.faces, origin=frame.origin,
+        rotation=frame.rotation, length=frame.length,
+    )  # fmt: skip
+    return {'triangles': count, 'repairs': list(solid.repairs)}
+
+
+def _pieces(path: Path) -> list[tuple[Any, Any]]:
+    """Return vertices and faces of each mesh in the file, where the file's scene puts it."""
+    import trimesh
+
+    logging.disable(logging.CRITICAL)
+    try:
+        scene = trimesh.load_scene(
+            path, process=False, skip_materials=True, allow_remote=False, maintain_order=True
+        )
+        nodes = list(scene.graph.nodes_geometry)
+        if len(nodes) > _MOST_PIECES:
+            raise ConfigError(f'{len(nodes)} meshes in it, at most {_MOST_PIECES} are read')
+        pieces, count = [], 0
+        for node in nodes:
+            transform, name = scene.graph[node]
+            mesh = scene.geometry[name]
+            faces = getattr(mesh, 'faces', None)
+            if faces is None or not len(faces):
+                continue
+            count += len(faces)
+            if count > MOST_TRIANGLES:
+                raise ConfigError(f'more than {MOST_TRIANGLES} triangles; export it with fewer')
+            vertices = np.asarray(mesh.vertices, dtype=np.float64)
+            corners = np.asarray(faces, dtype=np.int64)
+            if corners.min() < 0 or corners.max() >= len(vertices):
+                raise ConfigError('a face names a vertex that the file does not have')
+            turned = np.asarray(transform, dtype=np.float64)
+            placed = vertices
+            if not np.array_equal(turned, np.eye(4)):
+                placed = vertices @ turned[:3, :3].T + turned[:3, 3]
+            if np.linalg.det(turned[:3, :3]) < 0:  # a mirror image
+                corners = corners[:, ::-1]
+            pieces.append((placed, corners))
+    except (ConfigError, MemoryError):
+        raise
+    except Exception as error:  # a reader of strangers' files raises anything
+        if getattr(error, 'name', None) in _NEEDED:
+            raise
+        reason = ' '.join(str(error).split())[:160]
+        raise ConfigError(
+            f'is no {path.suffix.lower().lstrip(".")} mesh ({type(error).__name__}: {reason})'
+        ) from None
+    return pieces
+
+
+if __name__ == '__main__':
+    sys.exit(main())

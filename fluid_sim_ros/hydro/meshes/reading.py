@@ -1,0 +1,171 @@
+"""
+Reading a mesh file of a stranger: in a process of its own, with bounded memory and time.
+
+The process reads the file with trimesh and repairs what it finds. Whatever a file does to a
+reader, it ends here as one line.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.hydro.meshes.frame import Frame
+from fluid_sim_ros.hydro.meshes.repair import Solid
+from fluid_sim_ros.hydro.meshes.surface import Surface
+
+FORMATS = ('stl', 'obj', 'ply', 'glb', 'gltf', 'dae', 'off')
+UNITS = {'m': 1.0, 'cm': 0.01, 'mm': 0.001, 'in': 0.0254, 'ft': 0.3048}
+#: Largest file [bytes] and most triangles that are read.
+LARGEST_FILE = 300 * 2**20
+MOST_TRIANGLES = 1_000_000
+#: What the reading process may use: memory [bytes] and wall time [s].
+MEMORY = 4 * 2**30
+TIME_LIMIT = 120.0
+#: A body larger or smaller than this [m] has its unit asked for.
+_LARGE, _SMALL = 30.0, 5e-3
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """
+    A mesh file that was read.
+
+    Attributes
+    ----------
+    path
+        Of the file.
+    solid
+        The closed body, in metres.
+    triangles
+        How many the file has.
+    unit
+        That the file's numbers were taken in.
+    repairs
+        What was repaired or assumed, one phrase each.
+
+    """
+
+    path: Path
+    solid: Solid
+    triangles: int
+    unit: str
+    repairs: tuple[str, ...]
+
+
+def read_mesh(path: Path, unit: str | None = None) -> MeshFile:
+    """
+    Return the closed solid of a mesh file.
+
+    Parameters
+    ----------
+    path
+        STL, OBJ, PLY, GLB, glTF, DAE or OFF.
+    unit
+        Of the file's numbers, one of `UNITS`. None: metres, and a size that no vehicle has is
+        refused with the question for the unit.
+
+    Returns
+    -------
+    MeshFile
+        With what was repaired.
+
+    Raises
+    ------
+    ConfigError
+        If it is no such file, is larger than what is read, is no solid and cannot be made one,
+        or its unit must be asked for.
+
+    """
+    if unit is not None and unit not in UNITS:
+        raise ConfigError(f"unit '{unit}': unknown; allowed: {listed(UNITS)}")
+    _check_file(path)
+    with tempfile.TemporaryDirectory() as folder:
+        result = Path(folder) / 'solid.npz'
+        head = _in_a_process(path, UNITS[unit or 'm'], result)
+        with np.load(result) as arrays:
+            surface = Surface(arrays['vertices'], arrays['faces'])
+            frame = Frame(arrays['origin'], arrays['rotation'], float(arrays['length']))
+    solid = Solid(surface, frame, tuple(head['repairs']))
+    if unit is None:
+        _check_size(path, solid)
+    return MeshFile(path, solid, int(head['triangles']), unit or 'm', solid.repairs)
+
+
+def _check_file(path: Path) -> None:
+    kind = path.suffix.lower().lstrip('.')
+    if kind not in FORMATS:
+        raise ConfigError(
+            f"{path}: '{path.suffix}' is no mesh format that is read; allowed: {listed(FORMATS)}"
+        )
+    if not path.exists():
+        raise ConfigError(f'{path}: no such file')
+    if not path.is_file():
+        raise ConfigError(f'{path}: is no regular file')
+    try:
+        size = path.stat().st_size
+        with path.open('rb'):
+            pass
+    except OSError as error:
+        raise ConfigError(f'{path}: cannot be read ({error.strerror})') from None
+    if size > LARGEST_FILE:
+        raise ConfigError(
+            f'{path}: {size / 2**20:.0f} MiB, at most {LARGEST_FILE >> 20} MiB are read; '
+            'export it with fewer triangles'
+        )
+    if size == 0:
+        raise ConfigError(f'{path}: is empty')
+
+
+def _check_size(path: Path, solid: Solid) -> None:
+    size = solid.in_mesh_axes().size()
+    box = ' x '.join(f'{x:.4g}' for x in size)
+    if size.max() > _LARGE:
+        raise ConfigError(
+            f'{path}: {box} m is larger than {_LARGE:g} m; is it in millimetres? give --unit mm, '
+            'or --unit m to take it as it is'
+        )
+    if size.max() < _SMALL:
+        raise ConfigError(
+            f'{path}: {box} m is smaller than {1e3 * _SMALL:g} mm; give --unit (of: '
+            f'{listed(UNITS)}) to say what its numbers are'
+        )
+
+
+def _in_a_process(path: Path, scale: float, result: Path) -> dict[str, Any]:
+    """Let the file be read and repaired; return what was said about it."""
+    from fluid_sim_ros.hydro.meshes import reader_process
+
+    command = [sys.executable, '-m', reader_process.__name__, str(path), repr(scale), str(result)]
+    # one thread: each reserves memory, and none is needed
+    environment = os.environ | {'OMP_NUM_THREADS': '1', 'OPENBLAS_NUM_THREADS': '1'}
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, errors='replace', check=False,
+            stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, env=environment,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        raise ConfigError(
+            f'{path}: not read within {TIME_LIMIT:g} s; export it with fewer triangles'
+        ) from None
+    try:
+        head: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    except (IndexError, ValueError):
+        raise ConfigError(
+            f'{path}: its reader ended by itself (exit code {done.returncode}); the file is '
+            f'damaged, or needs more than {MEMORY >> 30} GiB to be read'
+        ) from None
+    missing = head.get('missing')
+    if missing:
+        raise ModuleNotFoundError(f'No module named {missing!r}', name=str(missing))
+    fault = head.get('error')
+    if fault:
+        raise ConfigError(f'{path}: {fault}')
+    return head
