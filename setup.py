@@ -125,13 +125,19 @@ SWEEP = [*PARQUET, 'ray>=2.40,<3']
 # Sweeps of stock scenes as worlds of mujoco_warp; each minor version is tested anew.
 WARP = ['mujoco-warp>=4.0,<4.1', 'warp-lang>=1.19,<1.20', 'pyarrow>=16']
 RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
+# Coefficients of a mesh, and vehicles from meshes and URDF.
+HYDRO = [
+    'capytaine>=3.0,<3.1', 'trimesh>=5.2,<6', 'manifold3d>=3.5,<4',
+    'fast_simplification>=0.2,<0.3', 'pycollada>=0.9,<1', 'xacro>=2.1,<3',
+]  # fmt: skip
 # All that the commands of README and doc/ use, on one machine without a GPU.
-ALL = [*ROS, *MAVLINK, *RECORD, *RENDER, *CHARTS, *SWEEP]
+ALL = [*ROS, *MAVLINK, *RECORD, *RENDER, *CHARTS, *HYDRO, *SWEEP]
 TEST = [
     *MAVLINK,
     *RENDER,
     *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', 'pyarrow>=16',
     *CHARTS,
+    *HYDRO,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
 # Other simulators, for benchmarks/peers/peer_simulators.py alone.
@@ -190,6 +196,7 @@ setup(
         'sweep': SWEEP,
         'warp': WARP,
         'charts': CHARTS,
+        'hydro': [*HYDRO, *CHARTS],
         'all': ALL,
         'test': TEST,
         'peers': PEERS,

@@ -13,10 +13,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.cli import autopilot, completion, logs, run_command, sweep, vehicle
+from fluid_sim_ros.cli import autopilot, completion, logs, run_command, sweep
 from fluid_sim_ros.cli.lab import advise, chart, stability
 from fluid_sim_ros.cli.parser import WRONG_INPUT, Parser
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, console
+from fluid_sim_ros.cli.vehicles import hydro, new_vehicle
 from fluid_sim_ros.errors import (
     MOST_LINE,
     DivergedError,
@@ -82,7 +83,8 @@ def _build_parser() -> Parser:
 
     run_command.add_parser(commands, _show)
     add_command(commands, 'scenes', 'list the scenes', _scenes, _show)
-    vehicle.add_parsers(commands, _show)
+    new_vehicle.add_parsers(commands, _show)
+    hydro.add_parser(commands, _show)
     logs.add_parsers(commands, _show)
     for each in (chart, stability, advise):
         each.add_parser(commands, _show)

@@ -138,12 +138,13 @@ def added_mass_of_body(
     size = _scale(solid.frame.length) * density
     matrix = _symmetric(best)
     error = np.maximum(np.abs(step), np.abs(best - best.T))
-    diagonal = np.sqrt(np.clip(np.diag(matrix), 0, None))
-    error = np.maximum(error, LEAST_ERROR * np.outer(diagonal, diagonal))
     rotation = solid.frame.rotation
     result = _symmetric(rotate_matrix6(_definite(matrix) * size, rotation))
+    diagonal = np.sqrt(np.diag(result))
+    error = _turned_error(error * size, rotation)
+    error = np.maximum(error, LEAST_ERROR * np.outer(diagonal, diagonal))
     return AddedMass(
-        result, _turned_error(error * size, rotation), solid.frame.outward(center),
+        result, error, solid.frame.outward(center),
         (len(panels.coarse), len(panels.fine)),
         np.array([_symmetric(rotate_matrix6(level * size, rotation)) for level in levels]),
         float(ratios[-1]), time.monotonic() - began,

@@ -18,6 +18,8 @@ from fluid_sim_ros.hydro.statics import Righting, Statics, righting_of, statics_
 from fluid_sim_ros.physics.arrays import Array
 
 GRAVITY = 9.81  # [m/s^2], MuJoCo's default
+#: Panels of the coarser mesh that can be asked for.
+_PANELS = (20, 2500)
 #: Viscosity taken where none is given [Pa s]: of water at 20 degC above 100 kg/m^3 (IAPWS), of
 #: air at 15 degC below (ISA).
 _WATER, _AIR, _LIGHT = 1.0e-3, 1.79e-5, 100.0
@@ -180,8 +182,12 @@ def _check(request: Request) -> None:
         raise ConfigError('--drag: all three must be above 0')
     if request.mass_center is not None and request.mass is None:
         raise ConfigError('--center-of-mass goes with --mass')
-    if request.coarse < 20:
-        raise ConfigError(f'--panels {request.coarse}: at least 20')
+    low, high = _PANELS
+    if not low <= request.coarse <= high:
+        raise ConfigError(
+            f'--panels {request.coarse}: must be {low} to {high}; four times as many are solved '
+            f'for, in {8 * (4 * high) ** 2 / 2**30:.2g} GiB at most'
+        )
 
 
 def _check_density(request: Request, statics: Statics) -> None:

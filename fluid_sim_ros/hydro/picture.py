@@ -6,15 +6,22 @@ from typing import Any
 import numpy as np
 
 from fluid_sim_ros.hydro.coefficients import Coefficients
-from fluid_sim_ros.hydro.meshes.simplify import decimated
 from fluid_sim_ros.hydro.meshes.surface import area_vectors
 from fluid_sim_ros.physics.arrays import Array
 
-#: Faces that are drawn, at most.
-_FACES = 6000
 _COLORS = ('#d62728', '#2ca02c', '#1f77b4')
-_NAMES = ('x forward', 'y left', 'z up')
-_LIGHT = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
+_NAMES = 'xyz'
+_ROOT_2, _ROOT_6, _ROOT_3 = 2**-0.5, 6**-0.5, 3**-0.5
+#: Name -> what is to the right, up, and towards the eye, in mesh axes [m].
+_VIEWS = {
+    'from the front, left and above': (
+        (-_ROOT_2, _ROOT_2, 0), (-_ROOT_6, -_ROOT_6, 2 * _ROOT_6), (_ROOT_3, _ROOT_3, _ROOT_3),
+    ),
+    'from above': ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    'from the right': ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
+    'from ahead': ((0, 1, 0), (0, 0, 1), (1, 0, 0)),
+}  # fmt: skip
+_LIGHT = np.array([0.5, -0.3, 0.8]) / np.linalg.norm([0.5, -0.3, 0.8])
 
 
 def draw(found: Coefficients, path: Path) -> None:
@@ -32,60 +39,65 @@ def draw(found: Coefficients, path: Path) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(12, 5.4), layout='constrained')
+    figure = Figure(figsize=(12.6, 6.4), layout='constrained')
     FigureCanvasAgg(figure)
-    grid = figure.add_gridspec(2, 2, width_ratios=(1.3, 1))
-    body = figure.add_subplot(grid[:, 0], projection='3d')
-    _draw_body(body, found)
-    _draw_added_mass(figure.add_subplot(grid[0, 1]), found)
-    _draw_drag(figure.add_subplot(grid[1, 1]), found)
-    figure.savefig(path, dpi=110)
+    grid = figure.add_gridspec(2, 3, width_ratios=(1, 1, 1.35))
+    for number, (name, turn) in enumerate(_VIEWS.items()):
+        axes = figure.add_subplot(grid[number // 2, number % 2])
+        _draw_view(axes, found, np.array(turn, dtype=float), legend=number == 0)
+        axes.set_title(name, fontsize=10)
+    _draw_added_mass(figure.add_subplot(grid[0, 2]), found)
+    _draw_drag(figure.add_subplot(grid[1, 2]), found)
+    volume = found.statics.volume
+    figure.suptitle(
+        f'{found.file.path.name}: {volume:.4g} m³, '
+        f'{found.request.density * volume:.4g} kg displaced', fontsize=12,
+    )  # fmt: skip
+    figure.savefig(path, dpi=105)
 
 
-def _draw_body(axes: Any, found: Coefficients) -> None:
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+def _draw_view(axes: Any, found: Coefficients, turn: Array, *, legend: bool) -> None:
+    """Draw the body as seen along the last row of ``turn``, nearest faces last."""
+    from matplotlib.collections import PolyCollection
 
-    solid = found.file.solid
-    simple = decimated(solid.surface, _FACES)
-    triangles = solid.frame.outward(simple.triangles)
+    triangles = found.added_mass.triangles
     normals = area_vectors(triangles)
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    bright = 0.45 + 0.5 * np.clip(normals @ _LIGHT, 0, 1)
-    colors = np.c_[np.outer(bright, [0.62, 0.72, 0.85]), np.full(len(bright), 0.45)]
-    axes.add_collection3d(Poly3DCollection(triangles, facecolors=colors, edgecolors='none'))
-    center, size = found.statics.center, found.statics.size
-    corners = triangles.reshape(-1, 3)
-    middle, reach = 0.5 * (corners.min(axis=0) + corners.max(axis=0)), 0.55 * size.max()
-    arrow = 0.6 * reach
+    seen = triangles @ turn.T
+    order = np.argsort(seen[:, :, 2].mean(axis=1))
+    order = order[(normals @ turn[2])[order] > 0]  # what faces away is hidden
+    bright = (0.5 + 0.5 * np.clip(normals @ _LIGHT, 0, 1))[order]
+    colors = np.outer(bright, [0.68, 0.78, 0.9])
+    axes.add_collection(
+        PolyCollection(seen[order][:, :, :2], facecolors=colors, edgecolors=colors, linewidths=0.3)
+    )
+    reach = 0.33 * found.statics.size.max()
     for k in range(3):
-        tip = np.zeros(3)
-        tip[k] = arrow
-        axes.quiver(*np.zeros(3), *tip, color=_COLORS[k], linewidth=2, arrow_length_ratio=0.15)
-        axes.text(*(1.12 * tip), _NAMES[k], color=_COLORS[k], fontsize=9)
-    axes.scatter(*center, s=50, color='#1f4ed8', depthshade=False, label='centre of buoyancy')
+        tip = reach * turn[:2, k]
+        if np.linalg.norm(tip) < 0.2 * reach:
+            continue  # along the line of sight
+        axes.annotate(
+            '', tip, (0, 0), arrowprops={'arrowstyle': '->', 'color': _COLORS[k], 'lw': 2}
+        )
+        axes.annotate(
+            _NAMES[k], 1.15 * tip, color=_COLORS[k], ha='center', va='center', fontsize=9
+        )
+    points = [(found.statics.center, 'o', '#1f4ed8', 'centre of buoyancy')]
     if found.request.mass is not None:
-        mass_center = found.request.mass_center or (0.0, 0.0, 0.0)
-        axes.scatter(
-            *mass_center, s=50, color='#e07b00', marker='s', depthshade=False,
-            label='centre of mass',
-        )  # fmt: skip
-    point = found.added_mass.point
-    if not np.allclose(point, center):
-        axes.scatter(*point, s=60, color='black', marker='x', depthshade=False,
-                     label='reference point')  # fmt: skip
-    for k, limit in enumerate((axes.set_xlim, axes.set_ylim, axes.set_zlim)):
-        limit(middle[k] - reach, middle[k] + reach)
-    axes.set_box_aspect((1, 1, 1), zoom=1.1)
-    axes.view_init(elev=22, azim=-55)
-    axes.set_xlabel('x [m]')
-    axes.set_ylabel('y [m]')
-    axes.set_zlabel('z [m]')
-    axes.legend(loc='upper left', fontsize=8)
-    volume = found.statics.volume
-    axes.set_title(
-        f'{found.file.path.name}: {volume:.4g} m³, '
-        f'{found.request.density * volume:.4g} kg displaced', fontsize=11,
-    )  # fmt: skip
+        center = np.array(found.request.mass_center or (0.0, 0.0, 0.0))
+        points.append((center, 's', '#e07b00', 'centre of mass'))
+    if not np.allclose(found.added_mass.point, found.statics.center):
+        points.append((found.added_mass.point, 'x', 'black', 'reference point'))
+    for point, marker, color, label in points:
+        x, y = turn[:2] @ point
+        axes.plot(x, y, marker, color=color, label=label, zorder=5, markersize=7)
+    axes.set_aspect('equal')
+    axes.margins(0.12)
+    axes.autoscale_view()
+    axes.grid(alpha=0.3)
+    axes.tick_params(labelsize=7)
+    if legend:
+        axes.legend(fontsize=7, loc='best')
 
 
 def _draw_added_mass(axes: Any, found: Coefficients) -> None:

@@ -139,9 +139,7 @@ def added_mass_of_panels(panels: Array, point: Array, images: list[Image]) -> Ar
     return matrix
 
 
-def _kernels(
-    kernel: Any, points: Array, beside: Array, mesh: Any
-) -> tuple[Array, Array]:
+def _kernels(kernel: Any, points: Array, beside: Array, mesh: Any) -> tuple[Array, Array]:
     """Return single and double layer of panels at points, or at those beside them."""
     from capytaine.green_functions.abstract_green_function import GreenFunctionEvaluationError
 

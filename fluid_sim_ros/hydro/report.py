@@ -13,16 +13,14 @@ from fluid_sim_ros.hydro.picture import draw
 _AXES = ('x', 'y', 'z', 'roll', 'pitch', 'yaw')
 
 
-def write_report(found: Coefficients, folder: Path, name: str, *, overwrite: bool) -> list[Path]:
+def report_files(folder: Path, name: str, *, overwrite: bool) -> tuple[Path, Path]:
     """
-    Write the report and its picture.
+    Return where the report goes.
 
     Parameters
     ----------
-    found
-        Of a mesh.
     folder
-        Made where it is missing.
+        Of the report.
     name
         Of the files, without suffix.
     overwrite
@@ -30,26 +28,46 @@ def write_report(found: Coefficients, folder: Path, name: str, *, overwrite: boo
 
     Returns
     -------
-    list
-        The page and the picture.
+    page, picture
+        Paths.
 
     Raises
     ------
     ConfigError
-        If a file exists or cannot be written.
+        If a file exists.
 
     """
     page, picture = folder / f'{name}.md', folder / f'{name}.png'
     for path in (page, picture):
         if path.exists() and not overwrite:
             raise ConfigError(f'{path}: exists; give another --report, or --force to replace it')
+    return page, picture
+
+
+def write_report(found: Coefficients, page: Path, picture: Path) -> None:
+    """
+    Write the report and its picture.
+
+    Parameters
+    ----------
+    found
+        Of a mesh.
+    page, picture
+        Of `report_files`; the folder is made where it is missing.
+
+    Raises
+    ------
+    ConfigError
+        If a file cannot be written.
+
+    """
+    folder = page.parent
     try:
         folder.mkdir(parents=True, exist_ok=True)
         draw(found, picture)
         page.write_text(as_markdown(found, picture.name), encoding='utf-8')
     except OSError as error:
         raise ConfigError(f'{folder}: cannot be written ({error.strerror})') from None
-    return [page, picture]
 
 
 def as_markdown(found: Coefficients, picture: str) -> str:

@@ -8,6 +8,8 @@ from fluid_sim_ros.hydro.meshes.repair import Solid
 from fluid_sim_ros.hydro.meshes.surface import areas, volume_and_center
 from fluid_sim_ros.physics.arrays import Array
 
+#: Of the largest size; a file in single precision has 6e-8.
+_ROUNDING = 1e-9
 _HEELS = (10.0, 30.0, 60.0, 90.0)  # [deg]
 
 
@@ -53,6 +55,8 @@ def statics_of(solid: Solid) -> Statics:
     surface = solid.in_mesh_axes()
     triangles = surface.triangles
     volume, center = volume_and_center(triangles)
+    # rounding of the coordinates is not a place
+    center[np.abs(center) < _ROUNDING * surface.size().max()] = 0.0
     return Statics(volume, center, float(areas(triangles).sum()), surface.size())
 
 

@@ -25,6 +25,10 @@ EXTRAS = {
     'mavlink': Part(('pymavlink',), '--autopilot px4'),
     'parquet': Part(('pyarrow',), 'sweep on threads, and export --parquet'),
     'sweep': Part(('pyarrow', 'ray'), 'sweep --ray, on processes or a cluster'),
+    'hydro': Part(
+        ('capytaine', 'trimesh', 'manifold3d', 'fast-simplification', 'xacro'),
+        'hydro and import: meshes and URDF',
+    ),
     'warp': Part(('mujoco-warp', 'warp-lang', 'pyarrow'), 'sweep --device'),
     'all': Part(
         ('matplotlib', 'mcap', 'imageio-ffmpeg', 'pymavlink', 'pyarrow', 'ray'),

@@ -16,7 +16,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.hydro.meshes.reading import MEMORY, MOST_TRIANGLES, TIME_LIMIT
-from fluid_sim_ros.hydro.meshes.repair import repaired
+from fluid_sim_ros.hydro.meshes.repair import Solid, repaired
 from fluid_sim_ros.hydro.meshes.surface import Surface
 
 #: Packages without which some formats are not read; trimesh may do without any other.
@@ -50,21 +50,42 @@ def main() -> int:
     return 0
 
 
-def _read(path: Path, scale: float, result: Path) -> dict[str, Any]:
+def solid_of_file(path: Path, scale: float) -> tuple[Solid, int]:
+    """
+    Return the closed solid of a mesh file, in this very process.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    scale
+        Unit of its numbers [m].
+
+    Returns
+    -------
+    solid, triangles
+        And how many triangles the file has.
+
+    Raises
+    ------
+    ConfigError
+        If it is no mesh, or no solid and cannot be made one.
+
+    """
     pieces = _pieces(path)
     count = sum(len(faces) for _, faces in pieces)
     if count == 0:
         raise ConfigError('no triangles in it')
-    if count > MOST_TRIANGLES:
-        raise ConfigError(
-            f'{count} triangles, at most {MOST_TRIANGLES} are read; export it with fewer'
-        )
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
     vertices = np.concatenate([vertices for vertices, _ in pieces])
     faces = np.concatenate(
         [faces + start for (_, faces), start in zip(pieces, starts, strict=True)]
     )
-    solid = repaired(Surface(scale * vertices, faces))
+    return repaired(Surface(scale * vertices, faces)), count
+
+
+def _read(path: Path, scale: float, result: Path) -> dict[str, Any]:
+    solid, count = solid_of_file(path, scale)
     frame = solid.frame
     np.savez(
         result, vertices=solid.surface.vertices, faces=solid.surface.faces, origin=frame.origin,

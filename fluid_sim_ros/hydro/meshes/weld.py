@@ -71,6 +71,8 @@ def without_nothing(faces: Faces) -> Faces:
     """
     a, b, c = faces.T
     faces = faces[(a != b) & (b != c) & (c != a)]
+    if not len(faces):
+        return faces
     group = _equal_rows(np.sort(faces, axis=1).astype(np.float64))
     if len(np.unique(group)) == len(faces):
         return faces

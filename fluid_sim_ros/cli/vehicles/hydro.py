@@ -72,7 +72,7 @@ def add_parser(commands: Any, show: Show) -> None:
 def _hydro(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.hydro.coefficients import Request, coefficients_of
     from fluid_sim_ros.hydro.panels import COARSE
-    from fluid_sim_ros.hydro.report import write_report
+    from fluid_sim_ros.hydro.report import report_files, write_report
     from fluid_sim_ros.hydro.result import as_json
 
     request = Request(
@@ -81,13 +81,15 @@ def _hydro(arguments: argparse.Namespace, show: Show) -> int:
         arguments.thrust, arguments.speed, _three(arguments.drag), _planes(arguments),
         COARSE if arguments.panels is None else arguments.panels,
     )  # fmt: skip
+    files = None
+    if arguments.report is not None:
+        name = arguments.mesh.stem
+        files = report_files(arguments.report, name, overwrite=arguments.force)
     found = coefficients_of(request, _progress)
     result = as_json(found)
-    if arguments.report is not None:
-        paths = write_report(
-            found, arguments.report, arguments.mesh.stem, overwrite=arguments.force
-        )
-        result['files'] = [str(path) for path in paths]
+    if files is not None:
+        write_report(found, *files)
+        result['files'] = [str(path) for path in files]
     show(arguments.json, _table(found, result), result)
     return 0
 
@@ -120,27 +122,24 @@ def _planes(arguments: argparse.Namespace) -> list['Plane']:
 def _table(found: 'Coefficients', result: dict[str, Any]) -> 'Table':
     import numpy as np
     from rich.markup import escape
-    from rich.table import Table
+
+    from fluid_sim_ros.cli.tables import table_of
 
     added, damping, statics = found.added_mass, found.damping, found.statics
-    table = Table(
-        'axis', 'added mass', 'error', 'ellipsoid', 'drag v|v|', 'range', 'shape',
-        title=escape(
-            f'{found.file.path.name}: {statics.volume:.5g} m^3, centre of buoyancy '
-            f'{" ".join(f"{x + 0.0:.4g}" for x in np.round(statics.center, 9))} m'
-        ),
-        caption=escape(_caption(found, result)),
-    )  # fmt: skip
+    rows = []
     for k, axis in enumerate(('x', 'y', 'z', 'roll', 'pitch', 'yaw')):
-        unit = 'kg' if k < 3 else 'kg m^2'
-        drag = 'N s^2/m^2' if k < 3 else 'N m s^2'
-        table.add_row(
-            axis, f'{added.matrix[k, k]:.4g} {unit}', f'{added.error[k, k]:.2g}',
-            f'{found.ellipsoid[k]:.3g}', f'{damping.quadratic[k]:.4g} {drag}',
+        rows.append((
+            axis, f'{added.matrix[k, k]:.4g} {"kg" if k < 3 else "kg m^2"}',
+            f'{added.error[k, k]:.2g}', f'{found.ellipsoid[k]:.3g}', f'{damping.quadratic[k]:.4g}',
             f'{damping.low[k]:.3g} to {damping.high[k]:.3g}',
             damping.axes[k].shape.name if k < 3 else '',
-        )  # fmt: skip
-    return table
+        ))  # fmt: skip
+    center = ' '.join(f'{x + 0.0:.4g}' for x in np.round(statics.center, 9))
+    title = f'{found.file.path.name}: {statics.volume:.5g} m^3, centre of buoyancy {center} m'
+    return table_of(
+        ('', 'added mass', 'error', 'ellipsoid', 'drag v|v|', 'range', 'shape'), rows,
+        title=escape(title), caption=escape(_caption(found, result)), caption_justify='left',
+    )  # fmt: skip
 
 
 def _caption(found: 'Coefficients', result: dict[str, Any]) -> str:

@@ -1,0 +1,1 @@
+"""Commands that make vehicles and their coefficients."""
