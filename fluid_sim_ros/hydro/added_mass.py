@@ -2,9 +2,9 @@
 Added mass of a closed body, with its error, from two meshes of panels.
 
 Two meshes whose panels are alike give A(h) and A(h/2); the error falls like h^2 and Richardson's
-A(h/2) + (A(h/2) - A(h))/3 takes most of it off. Each is first multiplied by the ratio of the
-body's volume to that of its panels. A smooth body of many faces is computed with these and is not
-extrapolated: a second mesh gives the error only.
+A(h/2) + (A(h/2) - A(h))/3 takes most of it off; twice that step is stated as its error. Each is
+first multiplied by the ratio of the body's volume to that of its panels. A smooth body of many
+faces is computed with these and is not extrapolated: a second mesh gives the error only.
 """
 
 import time
@@ -25,6 +25,8 @@ from fluid_sim_ros.physics.matrix6 import rotate_matrix6, shift_reference_point
 #: with known values were found to be off by (benchmarks/hydro/added_mass_accuracy.py).
 LEAST_ERROR = 0.005
 _ORDER = 2
+#: Error over Richardson's step: two unlike meshes of a frame differ by less (doc/hydro.md).
+_SAFETY = 2.0
 #: Lowest eigenvalue over the highest of what is returned: positive definite, also for a sphere,
 #: whose added moments of inertia are 0.
 _LOWEST = 1e-9
@@ -137,7 +139,7 @@ def added_mass_of_body(
     best = finer + step if panels.alike else finer
     size = _scale(solid.frame.length) * density
     matrix = _symmetric(best)
-    error = np.maximum(np.abs(step), np.abs(best - best.T))
+    error = np.maximum(_SAFETY * np.abs(step), np.abs(best - best.T))
     rotation = solid.frame.rotation
     result = _symmetric(rotate_matrix6(_definite(matrix) * size, rotation))
     diagonal = np.sqrt(np.diag(result))

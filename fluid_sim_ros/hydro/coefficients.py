@@ -11,8 +11,10 @@ from fluid_sim_ros.hydro.added_mass import AddedMass, added_mass_of_body
 from fluid_sim_ros.hydro.damping import Damping, damping_of
 from fluid_sim_ros.hydro.estimates import box_estimate, ellipsoid_estimate
 from fluid_sim_ros.hydro.meshes.reading import MeshFile, read_mesh
+from fluid_sim_ros.hydro.meshes.surface import MeshFaultError
 from fluid_sim_ros.hydro.panels import COARSE
 from fluid_sim_ros.hydro.planes import Plane
+from fluid_sim_ros.hydro.potential import BoundaryElementError
 from fluid_sim_ros.hydro.projected import projected_areas
 from fluid_sim_ros.hydro.statics import Righting, Statics, righting_of, statics_of
 from fluid_sim_ros.physics.arrays import Array
@@ -140,7 +142,12 @@ def coefficients_of(
     statics = statics_of(file.solid)
     _check_density(request, statics)
     say('added mass: panels and potential')
-    about_center = added_mass_of_body(file.solid, request.density, request.planes, request.coarse)
+    try:
+        about_center = added_mass_of_body(
+            file.solid, request.density, request.planes, request.coarse
+        )
+    except (MeshFaultError, BoundaryElementError) as fault:
+        raise ConfigError(f'{file.path}: {fault}') from None
     point = statics.center if request.about is None else np.array(request.about, dtype=float)
     added_mass = about_center.about(point)
     say('damping')

@@ -12,7 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from fluid_sim_ros.hydro.meshes.simplify import decimated, within, without_flat_edges
-from fluid_sim_ros.hydro.meshes.surface import Surface, areas, volume_and_center
+from fluid_sim_ros.hydro.meshes.surface import (
+    MeshFaultError,
+    Surface,
+    areas,
+    volume_and_center,
+)
 from fluid_sim_ros.hydro.quads import cut_to_size, merged_to_quads, quartered, sound
 from fluid_sim_ros.hydro.sharp_edges import cut_towards_edges, sharp_edges
 from fluid_sim_ros.physics.arrays import Array
@@ -25,6 +30,8 @@ _SMOOTH = 4 * COARSE
 #: enough; and what it may lose of its volume and its area.
 _SIMPLER = (5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2)
 _LOST = 0.02
+#: Panels of a body that is too detailed for refinement, and what it may lose then.
+_MOST, _ROUGH = 2500, 0.05
 _LAYERS = ((8, 6, 5), (4, 3, 2))
 #: Longest side of a panel over the square root of a sixth of the area: 1 is the side of a cube.
 _LONGEST = 0.45
@@ -67,7 +74,12 @@ def panels_of(surface: Surface, coarse: int = COARSE) -> Panels:
     Returns
     -------
     Panels
-        Narrow beside sharp edges.
+        Narrow beside sharp edges. A body that has no room for any refinement gets more.
+
+    Raises
+    ------
+    MeshFaultError
+        If its detail does not fit into any number of panels that can be solved for.
 
     """
     body = without_flat_edges(surface)
@@ -100,7 +112,7 @@ def as_panels(surface: Surface) -> Array:
 def _best_refined(body: Surface, most: int) -> Array:
     """Return panels within a number, of the body or of a simpler one that allows more layers."""
     bodies = list(_ever_simpler(body))
-    best, goal = as_panels(body), np.inf
+    best, goal = None, np.inf
     for layers in _LAYERS:
         for simple in bodies:
             panels, miss = _refined(simple, most, layers)
@@ -108,19 +120,40 @@ def _best_refined(body: Surface, most: int) -> Array:
                 return panels
             if miss < goal:
                 best, goal = panels, miss
-    return best
+    return _plain(body, bodies[-1]) if best is None else best
+
+
+def _plain(body: Surface, simplest: Surface) -> Array:
+    """Return panels without layers, of a body that is too detailed for any within the number."""
+    quads = merged_to_quads(simplest)
+    if len(quads) <= _MOST:
+        return quads
+    rough = decimated(body, _MOST)
+    volume, area = _kept(rough, body)
+    if max(abs(volume - 1), abs(area - 1)) > _ROUGH:
+        raise MeshFaultError(
+            f'more detail than {_MOST} panels hold (with so many, volume {volume - 1:+.0%}, area '
+            f'{area - 1:+.0%}); leave out screws, threads and text, or fill what is hollow'
+        )
+    return as_panels(rough)
+
+
+def _kept(simple: Surface, body: Surface) -> tuple[float, float]:
+    """Return volume and area of a simpler body over those of the body."""
+    one, two = simple.triangles, body.triangles
+    return (
+        volume_and_center(one)[0] / volume_and_center(two)[0],
+        float(areas(one).sum() / areas(two).sum()),
+    )
 
 
 def _ever_simpler(body: Surface) -> Iterator[Surface]:
     """Yield a body, and simpler ones of nearly its volume and area."""
     yield body
-    volume, area = volume_and_center(body.triangles)[0], areas(body.triangles).sum()
     count = len(body.faces)
     for reach in _SIMPLER:
         simple = within(body, reach)
-        corners = simple.triangles
-        kept = volume_and_center(corners)[0] / volume, areas(corners).sum() / area
-        if max(abs(kept[0] - 1), abs(kept[1] - 1)) > _LOST:
+        if max(abs(share - 1) for share in _kept(simple, body)) > _LOST:
             return
         if len(simple.faces) < 0.8 * count:
             count = len(simple.faces)
@@ -138,8 +171,11 @@ def _refined(body: Surface, most: int, choices: tuple[int, ...]) -> tuple[Array,
     edges = sharp_edges(body)
     whole = merged_to_quads(body)
     best, goal = whole, np.inf
+    if len(whole) > most:
+        return best, goal
     for layers in choices:
-        side, panels = 0.05 * size, None
+        # even panels without layers would have 1.6 times this side
+        side, panels = 0.6 * size * np.sqrt(6 / most), None
         while side < 4.0:
             sized = cut_to_size(whole, side, most)
             panels = cut_towards_edges(sized, edges, _DEPTH * side, layers, most)

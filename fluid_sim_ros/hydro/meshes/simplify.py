@@ -41,8 +41,9 @@ def decimated(surface: Surface, count: int) -> Surface:
     import fast_simplification
 
     vertices, faces = fast_simplification.simplify(
-        np.ascontiguousarray(surface.vertices),
-        np.ascontiguousarray(surface.faces, dtype=np.int32),
+        # it wants arrays that it might write to
+        np.array(surface.vertices, order='C'),
+        np.array(surface.faces, dtype=np.int32, order='C'),
         target_count=count,
     )
     return Surface(np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64))
