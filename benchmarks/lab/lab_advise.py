@@ -78,7 +78,7 @@ def table(result: dict[str, Any]) -> str:
             continue
         verified = _percent(row['verified']['error'])
         limit = choice['margin'] * choice['timestep'] * 1e3
-        bound = ('> ' if choice['margin_is_a_bound'] else '') + f'{limit:g} ms'
+        bound = ('> ' if choice['margin_is_a_bound'] else '') + f'{limit:.3g} ms'
         lines.append(
             f'{head}{row["metric"]} | {choice["rung"]} | {choice["integrator"]} | '
             f'{choice["timestep"] * 1e3:g} ms | {_percent(choice["error"])} | '

@@ -12,13 +12,14 @@ from dataclasses import dataclass, replace
 import mujoco
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.lab.problems.problem import Problem
+from fluid_sim_ros.errors import CommandError, ConfigError, listed
+from fluid_sim_ros.lab.problems.problem import Problem, Rung
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
 from fluid_sim_ros.schema.scene import BodyWrench, ScheduledEvent
+from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.thrust_matrix import thrust_matrix
 
@@ -66,10 +67,18 @@ def excited(problem: Problem) -> tuple[Problem, str]:
     rung = problem.rungs[problem.richest]
     found = excitation(rung.scene, problem.duration, problem.sample)
     rungs = {
-        name: each._replace(scene=replace(each.scene, schedule=found.events))
+        name: each._replace(scene=replace(each.scene, schedule=_for_rung(each, found.events)))
         for name, each in problem.rungs.items()
     }
     return replace(problem, rungs=rungs), found.words
+
+
+def _for_rung(rung: Rung, events: Sequence[ScheduledEvent]) -> tuple[ScheduledEvent, ...]:
+    """Return events without wind or current where a poorer model has no such medium."""
+    streams = rung.scene.compile(RunSettings(fluid=rung.fluid)).streams
+    missing = [name for name in NOMINAL if name not in streams]
+    kept = [event.model_copy(update=dict.fromkeys(missing)) for event in events]
+    return tuple(e for e in kept if e.wind or e.current or e.thrust or e.wrench)
 
 
 def excitation(scene: Scene, duration: float, sample: float) -> Excitation:
@@ -130,6 +139,10 @@ def _weather(
     events, words = [], []
     for name in simulation.streams:
         velocity = [float(f'{value:.3f}') for value in NOMINAL[name] * along]
+        try:
+            (simulation.set_wind if name == 'wind' else simulation.set_current)(velocity)
+        except CommandError:  # nothing of the model feels it
+            continue
         events.append(ScheduledEvent.model_validate({'at': 0.0, name: velocity}))
         words.append(f'a {name} of {NOMINAL[name]:g} m/s')
     return events, words

@@ -10,10 +10,12 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.advisor.advice import settings, verify
 from fluid_sim_ros.lab.advisor.advise import advise
 from fluid_sim_ros.lab.charts.measure import measure, time_again
-from fluid_sim_ros.lab.excitation import AXES, excitation
+from fluid_sim_ros.lab.excitation import AXES, excitation, excited
 from fluid_sim_ros.lab.manoeuvre import judged
 from fluid_sim_ros.lab.problems.from_scene import of_scene
+from fluid_sim_ros.lab.problems.problem import run_rung
 from fluid_sim_ros.schema.scene import ScheduledEvent
+from fluid_sim_ros.schema.settings import RunSettings
 
 #: A neutral body that nothing moves, and two spheres that fly into each other.
 NEUTRAL = """<mujoco><option timestep="0.005" density="1000" gravity="0 0 0"/><worldbody>
@@ -152,6 +154,25 @@ def test_the_excitation_is_the_same_each_time_and_within_the_limits():
         # as much backward as forward, and back
         np.testing.assert_allclose(thrusts[0] - start, start - thrusts[1], atol=1e-12)
         np.testing.assert_array_equal(thrusts[2], start)
+
+
+def test_a_scene_without_a_fluid_has_no_wind_in_its_excitation(tmp_path):
+    scene = model(tmp_path, NEUTRAL.replace('density="1000" gravity', 'gravity'))
+    words = excitation(scene, 2.0, 0.1).words
+    assert words.startswith('doublets of force and torque on surge')
+    assert advise(scene, 0.01, duration=1.0)['choice']
+
+
+def test_a_poorer_model_may_lack_a_medium():
+    """At the surface there is wind; a model without the surface has water only."""
+    case = of_scene('bluerov2_surface', 2.0)
+    moved, words = excited(case)
+    assert 'wind' in words
+    for name, rung in moved.rungs.items():
+        compiled = rung.scene.compile(RunSettings(fluid=rung.fluid))
+        winds = [event for event in rung.scene.schedule if event.wind]
+        assert bool(winds) is ('wind' in compiled.streams)
+        run_rung(replace(moved, duration=0.2), moved.rungs[name], 'implicitfast', 0.01)
 
 
 def test_the_weather_of_the_scene_stays_in_the_excitation():
