@@ -100,7 +100,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
             files.append(write_chart_page(found, folder / 'chart.html'))
     lines = [f'{name} failed: {reason}' for name, reason in failed.items()]
     if not found:
-        raise ConfigError('\n'.join(failed.values()))
+        raise ConfigError('; '.join(failed.values()))
     show(
         arguments.json, fronts_table(found, files, lines),
         {'charts': found, 'failed': failed, 'files': [str(file) for file in files]},

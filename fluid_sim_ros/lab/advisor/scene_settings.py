@@ -142,9 +142,9 @@ def _write(
         good = False
     if not good:
         path.write_bytes(before.encode())
-        lines = _dumped(YAML(), CommentedMap(_stated(changes)))
         raise ConfigError(
-            f'{path}: the settings could not be put in; write them by hand:\n{lines}'
+            f'{path}: the settings could not be put in; write them by hand: '
+            f'{yaml.safe_dump(_stated(changes), default_flow_style=True, width=1 << 20).strip()}'
         )
     return path
 
