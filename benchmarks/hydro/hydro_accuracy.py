@@ -2,7 +2,7 @@
 Added mass from meshes: bodies with known values, turned meshes, a frame under refinement, planes.
 
 With the default mesh. Known are ellipsoids (Lamb 1932), the cube along a side (Sihvola et al.
-2004) and cylinders by ring sources (revolution.py, which shares nothing with what is measured); the
+2004) and cylinders by ring sources (revolution.py shares nothing with what is measured); the
 moments of the cube by Capytaine on finer panels of one eighth. The frame has boxes and cylinders
 that overlap; no value of it is known: it is judged by how far its meshes are apart.
 """
