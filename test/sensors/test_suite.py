@@ -108,7 +108,8 @@ def test_a_vehicle_without_sensors(brick):
 
 
 def test_unknown_vehicle(brick):
-    with pytest.raises(CommandError, match="vehicle 'bric' is not in the scene; it has: brick"):
+    line = r"vehicle 'bric' is not in the scene; did you mean 'brick'\? it has: brick"
+    with pytest.raises(CommandError, match=line):
         SensorSuite(brick(), 'bric')
 
 
