@@ -48,6 +48,7 @@ def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixt
         assert (out / name).stat().st_size > 20_000
 
 
+@pytest.mark.full  # slow; test_lockstep.py compares two runs in `make test`
 def test_two_runs_are_the_same_to_the_bit(tmp_path: Path) -> None:
     runs = []
     for name in ('a', 'b'):

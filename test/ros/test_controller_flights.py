@@ -118,6 +118,7 @@ def test_lockstep_plane_holds_altitude_and_heading_in_wind_and_a_gust():
     assert gust[:, 2].max() > 102.5  # it did lift
 
 
+@pytest.mark.full  # slow; test_lockstep.py compares two runs in `make test`
 def test_lockstep_plane_flies_waypoints_the_same_way_twice():
     plan = '[60.0, 2.0, 100.5, 0.0, 0.0, 120.0, 10.0, 101.0, 0.3, 0.0]'
     first, _ = fly_in_wind(10.0, waypoints=plan)
