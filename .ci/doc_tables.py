@@ -57,6 +57,11 @@ def advice() -> str:
     return _table_of('lab_advise')
 
 
+def added_mass() -> str:
+    """Return the table of added masses from meshes, by the benchmark's result."""
+    return _table_of('hydro_accuracy')
+
+
 def _table_of(name: str) -> str:
     path = bench_page.RESULTS / f'{name}.json'
     return bench_page.table_of(name, json.loads(path.read_text(encoding='utf-8')))
@@ -102,6 +107,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'scenes': ('README.md', scenes),
     'accuracy': ('README.md', accuracy),
     'advice': ('doc/lab.md', advice),
+    'added mass': ('doc/hydro.md', added_mass),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
     'px4 parameters': ('doc/autopilot_px4.md', partial(autopilot_parameters, 'px4')),

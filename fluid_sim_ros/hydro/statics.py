@@ -118,7 +118,7 @@ def righting_of(
     heel = np.array(_HEELS)
     # level where the arm points up: roll about x first, then pitch about y
     roll = float(np.degrees(np.arctan2(arm[1], arm[2])))
-    pitch = float(np.degrees(np.arctan2(-arm[0], np.hypot(arm[1], arm[2]))))
+    pitch = float(np.degrees(np.arctan2(0.0 - arm[0], np.hypot(arm[1], arm[2]))))
     return Righting(
         gravity * (density * statics.volume - mass), arm, roll, pitch, heel,
         float(np.linalg.norm(arm)) * np.sin(np.radians(heel)),

@@ -55,6 +55,7 @@ SHORTER = {
     'fluid_sim run amphibious': '--duration 2',
     'fluid_sim run quadrotor --record': '--duration 1',
     'fluid_sim advise': '--budget 3',
+    'fluid_sim hydro': '--panels 60',
     'fluid_sim chart kirchhoff': '--timesteps 0.01 0.005 --rounds 1 --integrators RK4',
     'fluid_sim chart --from out/chart/kirchhoff.json --time-again': '--rounds 1',
     'fluid_sim stability drag': '--cells 2',

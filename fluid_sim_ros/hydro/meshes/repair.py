@@ -93,7 +93,7 @@ def repaired(surface: Surface) -> Solid:
     except MeshFaultError as fault:
         if fault.point is None:
             raise
-        x, y, z = frame.outward(fault.point)
+        x, y, z = frame.outward(fault.point).round(9) + 0.0
         raise ConfigError(f'{fault} (near {x:.4g} {y:.4g} {z:.4g})') from None
     return Solid(body, frame, tuple(words))
 
