@@ -44,6 +44,8 @@ class _PolledGroup(CallbackGroup):
 
     It still has the executor call what the middleware says of a topic, such as a peer whose
     quality of service does not fit.
+
+    Each topic has a group of its own: the common one of a node never forgets what was in it.
     """
 
     def can_execute(self, entity: Any) -> bool:
@@ -164,7 +166,7 @@ class RawPublisher(Endpoint):
         self._node = node
         self.type = message
         self._publisher = node.create_publisher(
-            message_class(message), topic, _profile(quality),
+            message_class(message), topic, _profile(quality), callback_group=_PolledGroup(),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
             event_callbacks=PublisherEventCallbacks(incompatible_qos=self._on_incompatible),
         )  # fmt: skip
