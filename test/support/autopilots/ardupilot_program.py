@@ -10,6 +10,7 @@ import os
 import signal
 import socket
 import subprocess
+from itertools import count
 from pathlib import Path
 
 from test.support.autopilots.ardupilot_stand_in import Copter, Link, padded
@@ -30,6 +31,7 @@ def main() -> None:
     parser.add_argument('--serial0', default='tcp:0:wait')
     parser.add_argument('--sim-port-out', type=int)
     parser.add_argument('--pids', type=Path)  # of this stand-in: where to write process ids
+    parser.add_argument('--flying', type=Path)  # of this stand-in: what to write once it flies
     for option in ('--model', '--home', '--speedup', '--defaults'):
         parser.add_argument(option)
     arguments = parser.parse_args()
@@ -46,8 +48,10 @@ def main() -> None:
         wait_for_station(5760 + 10 * arguments.instance)
     link = Link(arguments.sim_port_out or 9002 + 10 * arguments.instance)
     copter, pulses = Copter((0.0, 0.0, -2.0), 0.77), padded([1000] * 4)
-    while True:
+    for exchange in count():
         pulses = copter.pulses(link.exchange(pulses))
+        if exchange == 10 and arguments.flying:
+            arguments.flying.touch()
 
 
 if __name__ == '__main__':
