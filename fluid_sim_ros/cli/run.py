@@ -1,7 +1,7 @@
 """Runs a scene without ROS: the same simulation and loop as the node, with a progress bar."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +19,7 @@ from fluid_sim_ros.cli.tables import table_of
 from fluid_sim_ros.cli.watcher import SAMPLE_PERIOD, Watcher
 from fluid_sim_ros.errors import ConfigError, listed, needed_for
 from fluid_sim_ros.loop.hold import Hold
-from fluid_sim_ros.loop.pacing import Pacing, RealTime
+from fluid_sim_ros.loop.pacing import KEPT_PACE, Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
 from fluid_sim_ros.loop.watchdogs import Watchdogs
 from fluid_sim_ros.scene import Scene
@@ -29,6 +29,11 @@ from fluid_sim_ros.step_clock import rounded_duration
 
 if TYPE_CHECKING:
     from fluid_sim_ros.recording.sink import RecordingSink
+
+#: Wall time from which on the pace of a run is judged [s].
+_SHORTEST = 0.5
+#: A fluid force below it is rounding, and shown as none [N].
+_LEAST_FORCE = 1e-12
 
 
 def run_scene(
@@ -119,10 +124,11 @@ def run_scene(
         progress.add_task(simulation.scene.name, total=seconds)
         say = plain_lines(progress.console)
         watcher = Watcher(simulation, progress, live)
-        watchdogs = Watchdogs(simulation, lambda line: say(f'warning: {line}'))
-        sinks: list[Sink] = [watcher, watchdogs]
+        sinks: list[Sink] = [watcher]
         recording = _recording(simulation, record, record_topics, allow_assets_from, sinks)
         with recording as (files, log):
+            watchdogs = Watchdogs(simulation, lambda line: _warn(line, say, log))
+            sinks.append(watchdogs)
             begin = time.perf_counter()
             flight = None
             if autopilot is not None:
@@ -135,13 +141,25 @@ def run_scene(
             with stopped_by_signals(runner.stop) as interruption, connected:
                 runner.run(until=steps)
             wall = time.perf_counter() - begin
-        remarks = watchdogs.finish()
+            if realtime and wall > _SHORTEST and simulation.time / wall < KEPT_PACE:
+                simulation.warnings.add(
+                    f'real-time factor {simulation.time / wall:.2f} instead of 1; a larger '
+                    'timestep or a cheaper fluid model (fluid_sim advise) would help'
+                )
+            remarks = watchdogs.finish()
         for line in remarks:
             say(line)
     result = _summary(simulation, watcher, wall) | files | {
         'remarks': remarks, 'interrupted': interruption.name
     }  # fmt: skip
     return result if flight is None else result | {'autopilot': flight.result}
+
+
+def _warn(line: str, say: Callable[[str], None], log: 'RecordingSink | None') -> None:
+    """Say a warning, and keep it in the log."""
+    say(f'warning: {line}')
+    if log is not None:
+        log.event(warning=line)
 
 
 @contextmanager
@@ -195,8 +213,7 @@ def summary_table(result: dict[str, Any]) -> Table:
             name,
             _vector(vehicle['position_w_m']),
             _vector(vehicle['velocity_b_m_s']),
-            f'{vehicle["largest_fluid_force_n"]:.4g} N '
-            f'at {vehicle["largest_fluid_force_at_s"]:.2f} s',
+            _force(vehicle['largest_fluid_force_n'], vehicle['largest_fluid_force_at_s']),
         )
         for name, vehicle in result['vehicles'].items()
     ]
@@ -237,6 +254,10 @@ def _summary(simulation: Simulation, watcher: Watcher, wall: float) -> dict[str,
         'warnings': simulation.warnings.lines,
         'vehicles': vehicles,
     }
+
+
+def _force(newtons: float, at: float) -> str:
+    return f'{newtons:.4g} N at {at:.2f} s' if newtons > _LEAST_FORCE else 'none'
 
 
 def _vector(values: Sequence[float]) -> str:

@@ -19,7 +19,7 @@ from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.plant import plant_of
-from fluid_sim_ros.step_clock import period_steps
+from fluid_sim_ros.step_clock import Beat
 
 #: Answers per second of simulated time [Hz].
 RATE = 100.0
@@ -132,7 +132,7 @@ class Hold:
     Attributes
     ----------
     period
-        Ticks between two answers.
+        Every tick at which it answers is a multiple of it.
 
     Raises
     ------
@@ -142,7 +142,8 @@ class Hold:
     """
 
     def __init__(self, simulation: Simulation, log: CommandLog | None = None) -> None:
-        self.period = period_steps(RATE, simulation.timestep, '--hold')
+        self._beat = Beat.at_rate(RATE, simulation.timestep, '--hold')
+        self.period = self._beat.period
         self._held: list[tuple[int, Law, VehicleCommands]] = []
         rows = simulation.observe(forces=False).copy()
         for row, (name, vehicle) in enumerate(simulation.vehicles.items()):
@@ -166,6 +167,8 @@ class Hold:
             At a step boundary; commanded.
 
         """
+        if not self._beat.due(simulation.tick):
+            return
         rows = simulation.observe(forces=False)
         states = [state_of(simulation, rows[row]) for row, _, _ in self._held]
         for state, (_, law, commands) in zip(states, self._held, strict=True):

@@ -7,12 +7,14 @@ from typing import Protocol
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import NEVER
+from fluid_sim_ros.step_clock import NEVER, Beat
 
 #: Real-time pacing sleeps no longer than this at once, so that requests are served [s].
 _LONGEST_SLEEP = 0.05
 #: Real-time pacing gives up catching up beyond this lag and starts its clock anew [s].
 _LARGEST_LAG = 0.25
+#: Share of the wanted real-time factor below which it is reported.
+KEPT_PACE = 0.95
 
 
 class Source(Protocol):
@@ -199,12 +201,12 @@ class RealTime(Pacing):
 @dataclass
 class Lockstep(Pacing):
     """
-    Every ``period`` steps the loop waits until the source has answered the present state.
+    At each beat the loop waits until the source has answered the present state.
 
     Attributes
     ----------
-    period
-        Steps between two answers.
+    beat
+        At which steps an answer is waited for.
     on_timeout
         Called each ``patience`` [s] of wall time without an answer; returns True to go on without.
     misses
@@ -212,7 +214,7 @@ class Lockstep(Pacing):
 
     """
 
-    period: int
+    beat: Beat
     on_timeout: Callable[[Simulation], bool] = lambda simulation: False
     patience: float = 0.1
     misses: int = 0
@@ -241,11 +243,11 @@ class Lockstep(Pacing):
             What is run.
 
         """
-        return self.period - simulation.step_count % self.period
+        return self.beat.until_next(simulation.step_count)
 
     def meet(self, simulation: Simulation, source: Source) -> bool:
         """
-        Wait for the answer at every period's boundary.
+        Wait for the answer at every step that is due.
 
         Parameters
         ----------
@@ -260,7 +262,7 @@ class Lockstep(Pacing):
             False: not answered, do not step.
 
         """
-        if simulation.step_count % self.period:
+        if not self.beat.due(simulation.step_count):
             return True
         if self._waiting_for != simulation.step_count:
             self._waiting_for = simulation.step_count

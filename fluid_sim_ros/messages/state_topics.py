@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
 from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
@@ -17,11 +19,12 @@ from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import period_steps
+from fluid_sim_ros.step_clock import Beat
 
 ODOMETRY = 'nav_msgs/msg/Odometry'
 CLOCK = 'rosgraph_msgs/msg/Clock'
 TRANSFORMS = 'tf2_msgs/msg/TFMessage'
+_EVERY_STEP = Beat(Fraction(1))
 
 #: Rates [Hz] of simulated time and variances, as the node's parameters of the same names.
 DEFAULTS: dict[str, Any] = {
@@ -59,7 +62,7 @@ class StateTopics:
     Raises
     ------
     ConfigError
-        If a rate does not divide the step rate, or a sensor does not fit the model.
+        If a rate is above the step rate, or a sensor does not fit the model.
 
     """
 
@@ -68,6 +71,7 @@ class StateTopics:
         self._settings = settings
         self._stamp = StampBytes()
         self._forces_known = False
+        self._refused: dict[str, str] = {}
         rows = simulation.observe(forces=True)
         self.topics: list[StateTopic] = []
         self.suites = {name: SensorSuite(simulation, name) for name in simulation.vehicles}
@@ -75,6 +79,8 @@ class StateTopics:
             self._add_vehicle(vehicle, rows[index])
         self._add_transforms(list(simulation.vehicles), rows)
         self._add('/clock', CLOCK, 'clock.rate', {}, {}, quality=NEWEST)
+        if self._refused:
+            raise ConfigError('; '.join(self._refused.values()))
         self.topics.sort(key=lambda topic: topic.needs_forces)
 
     def thrusters(self, vehicle: str) -> tuple[str, ...]:
@@ -120,9 +126,11 @@ class StateTopics:
         Returns
         -------
         bytes
-            The message (CDR); empty where a sensor has no new reading.
+            The message (CDR); empty where none is due, or a sensor has no new reading.
 
         """
+        if topic.uneven is not None and not topic.uneven.due(self._simulation.tick):
+            return b''
         if topic.needs_forces and not self._forces_known:
             self._simulation.observe(forces=True)
             self._forces_known = True
@@ -235,15 +243,26 @@ class StateTopics:
         quality: Quality = STATE,
     ) -> None:
         """Add a topic: what stays in its message, and the arrays that each member follows."""
-        period = period_steps(
-            self._settings[rate], self._simulation.timestep, f"parameter '{rate}'"
-        )
+        beat = self._beat(rate)
         template = Template.of(message, constants, list(sources))
         copies = [(place, self._stamp.view) for place in template.stamps]
         copies += template.copies(list(sources.values()))
         self.topics.append(
-            StateTopic(name, message, template, period, copies, needs_forces, prepare, quality)
-        )
+            StateTopic(
+                name, message, template, beat.period, copies, needs_forces, prepare, quality,
+                uneven=None if beat.whole else beat,
+            )
+        )  # fmt: skip
+
+    def _beat(self, rate: str) -> Beat:
+        """Return the beat of a rate; what is refused is kept, to name all in one line."""
+        try:
+            return Beat.at_rate(
+                self._settings[rate], self._simulation.timestep, f"parameter '{rate}'"
+            )
+        except ConfigError as error:
+            self._refused.setdefault(rate, str(error))
+            return _EVERY_STEP
 
 
 def _pose(row: Array) -> tuple[Array, tuple[Array, Array]]:

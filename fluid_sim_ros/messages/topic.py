@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from fluid_sim_ros.messages.templates import Template
+from fluid_sim_ros.step_clock import Beat
 
 
 class Quality(NamedTuple):
@@ -49,7 +50,7 @@ class StateTopic:
     template
         The message.
     period
-        Steps between two messages.
+        Every step at which a message is due is a multiple of it.
     copies
         What is copied into the template for each message: pairs of target and source.
     needs_forces
@@ -60,6 +61,8 @@ class StateTopic:
         Quality of service that is offered.
     appears_later
         What it measures at one due step may stand in the message of another.
+    uneven
+        When messages are due, where they are no whole number of steps apart; otherwise None.
     new_name
         Where the topic is there for one release under the name that it had before: the name that
         it has now. Recorded only where it is asked for by name.
@@ -78,6 +81,7 @@ class StateTopic:
     quality: Quality = STATE
     appears_later: bool = False
     new_name: str = ''
+    uneven: Beat | None = None
 
     for_display: ClassVar[bool] = False
 

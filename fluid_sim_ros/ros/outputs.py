@@ -84,7 +84,7 @@ class Outputs:
     Raises
     ------
     ConfigError
-        If a rate does not divide the step rate, or a sensor does not fit the model.
+        If a rate is above the step rate, or a sensor does not fit the model.
 
     """
 

@@ -12,7 +12,7 @@ from fluid_sim_ros.ros.autopilot import check_pacing
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import period_steps, whole_steps
+from fluid_sim_ros.step_clock import Beat, exact
 
 #: Wall time between two publications of the present state while held in lockstep [s].
 _HOLD_PERIOD = 0.1
@@ -80,9 +80,8 @@ class Pacings:
     def _lockstep(self) -> Lockstep:
         settings, timestep = self._settings, self._simulation.timestep
         self._inputs.check_awaited()
-        period = whole_steps(settings['lockstep.period'], timestep, "parameter 'lockstep.period'")
-        odometry = period_steps(settings['odom.rate'], timestep, "parameter 'odom.rate'")
-        if period % odometry:
+        period, rate = exact(settings['lockstep.period']), exact(settings['odom.rate'])
+        if (period * rate).denominator != 1:
             raise ConfigError(
                 f"parameter 'lockstep.period': {settings['lockstep.period']:g} s is not a "
                 f'multiple of the odometry period {1 / settings["odom.rate"]:g} s, so some states '
@@ -91,7 +90,8 @@ class Pacings:
         rule = settings['lockstep.on_timeout']
         on_timeout = {'hold': self._hold, 'continue': self._go_on, 'stop': self._give_up}[rule]
         patience = _HOLD_PERIOD if rule == 'hold' else settings['lockstep.timeout']
-        return Lockstep(period=period, on_timeout=on_timeout, patience=patience)
+        beat = Beat.at_rate(1 / period, timestep, "parameter 'lockstep.period'")
+        return Lockstep(beat=beat, on_timeout=on_timeout, patience=patience)
 
     def _hold(self, simulation: Simulation) -> bool:
         self._outputs.repeat(simulation)

@@ -18,7 +18,7 @@ from fluid_sim_ros.ros.pacings import Pacings
 from fluid_sim_ros.ros.recording import start_recording
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import duration_steps
+from fluid_sim_ros.step_clock import rounded_duration
 
 _DIAGNOSTICS_PERIOD = 1.0
 
@@ -70,7 +70,9 @@ class Session:
             seed=settings['seed'],
         )
         self.simulation = Simulation(settings['scene'], **run.model_dump())
-        self._until = duration_steps(settings['duration'], self.simulation.timestep)
+        self._until, rounded = rounded_duration(settings['duration'], self.simulation.timestep)
+        if rounded:
+            self.simulation.warnings.add(rounded)
         self.inputs = Inputs(node, self.simulation, settings, report)
         self.outputs = Outputs(node, self.simulation, settings)
         self._diagnostics = Diagnostics(

@@ -7,12 +7,12 @@ from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import Gait
-from fluid_sim_ros.step_clock import NEVER, exact
+from fluid_sim_ros.step_clock import NEVER, Beat, exact
 
 
 class GaitCycle:
     """
-    One vehicle's wave, evaluated every ``period`` steps and held in between.
+    One vehicle's wave, evaluated at each ``beat`` and held in between.
 
     Parameters
     ----------
@@ -25,13 +25,15 @@ class GaitCycle:
 
     Attributes
     ----------
-    period
-        Ticks between two evaluations.
+    beat
+        At which ticks it is evaluated.
+    rounded
+        A line where these are no whole number of ticks apart, otherwise empty.
 
     Raises
     ------
     ConfigError
-        If the wave does not fit the joints, or its rate the timestep.
+        If the wave does not fit the joints, or its rate is above the step rate.
 
     """
 
@@ -42,10 +44,13 @@ class GaitCycle:
                 f'{where}: has {len(gait.amplitudes)} amplitudes; it needs one for each of: '
                 f'{listed(vehicle.joints)}'
             )
-        steps = 1 / (exact(gait.rate) * exact(timestep))
-        if steps.denominator != 1:
-            raise ConfigError(f'{where}: rate {gait.rate:g} Hz does not divide the step rate')
-        self.period = steps.numerator
+        self.beat = Beat.at_rate(gait.rate, timestep, where)
+        self.rounded = (
+            ''
+            if self.beat.whole
+            else f'{where}: rate {gait.rate:g} Hz does not divide the step rate of '
+            f'{1 / timestep:g} Hz; met on average, each value at the nearest step'
+        )
         self._ids = vehicle.joint_ids
         self._wave = JointWave(
             gait.frequency,
@@ -58,7 +63,7 @@ class GaitCycle:
 
     def write(self, step: int, control: Array) -> None:
         """
-        Write the joint commands of a tick that is a multiple of the period.
+        Write the joint commands of a tick that is due.
 
         Parameters
         ----------
@@ -68,7 +73,7 @@ class GaitCycle:
             ``mjData.ctrl``; changed.
 
         """
-        control[self._ids] = self._wave.angles(step // self.period * self._tick)
+        control[self._ids] = self._wave.angles(self.beat.index(step) * self._tick)
 
 
 class Gaits:
@@ -94,6 +99,8 @@ class Gaits:
         Names of the vehicles whose waves run.
     next_step
         Tick of the next evaluation.
+    rounded
+        A line for each wave whose rate does not divide the step rate.
 
     Raises
     ------
@@ -116,6 +123,7 @@ class Gaits:
                     f'{did_you_mean(name, vehicles)} it has: {listed(vehicles)}'
                 )
         self._all = {name: GaitCycle(g, vehicles[name], timestep) for name, g in gaits.items()}
+        self.rounded = tuple(cycle.rounded for cycle in self._all.values() if cycle.rounded)
         self.running: tuple[str, ...] = ()
         self.next_step = NEVER
         self.restart(0, tuple(self._all))
@@ -164,10 +172,10 @@ class Gaits:
         if step < self.next_step:
             return
         for name in self.running:
-            if step % self._all[name].period == 0:
+            if self._all[name].beat.due(step):
                 self._all[name].write(step, control)
         self._schedule_after(step)
 
     def _schedule_after(self, step: int) -> None:
-        periods = [self._all[name].period for name in self.running]
-        self.next_step = min((step // p * p + p for p in periods), default=NEVER)
+        beats = [self._all[name].beat for name in self.running]
+        self.next_step = min((step + b.until_next(step) for b in beats), default=NEVER)

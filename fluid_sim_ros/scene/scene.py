@@ -35,8 +35,8 @@ class CompiledScene:
     """
     A MuJoCo model with the scene's names resolved to ids.
 
-    ``streams`` names what of wind and current the scene has; ``warnings`` is what a user must
-    hear of the model.
+    ``streams`` names what of wind and current the scene has; ``rounded`` tells which times of the
+    scene its timestep does not divide; ``warnings`` is what a user must hear of the model.
     """
 
     model: mujoco.MjModel
@@ -44,6 +44,7 @@ class CompiledScene:
     schedule: Schedule
     gaits: Gaits
     streams: tuple[str, ...]
+    rounded: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
 
@@ -193,8 +194,9 @@ class Scene:
         streams = dry or streams_of(model, self.medium)
         self._check_weather(streams)
         self._check_keyframe(model)
-        warnings = load_warnings(model, every_free_body=self.vehicles is None)
-        return CompiledScene(model, vehicles, schedule, gaits, streams, tuple(warnings))
+        rounded = schedule.rounded + gaits.rounded
+        warnings = (*load_warnings(model, every_free_body=self.vehicles is None), *rounded)
+        return CompiledScene(model, vehicles, schedule, gaits, streams, rounded, warnings)
 
     def read_model(self) -> mujoco.MjSpec:
         """Return the model as it is written, or raise ModelError."""

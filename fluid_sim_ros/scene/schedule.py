@@ -8,7 +8,7 @@ from fluid_sim_ros.errors import CommandError, ConfigError, did_you_mean, listed
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.limits import beyond, limit
 from fluid_sim_ros.schema.scene import ScheduledEvent
-from fluid_sim_ros.step_clock import NEVER, whole_steps
+from fluid_sim_ros.step_clock import NEVER, rounded_steps
 
 
 @dataclass(frozen=True)
@@ -36,18 +36,18 @@ class Schedule:
     ----------
     next_step
         Tick at which the next event takes effect.
-
-    Raises
-    ------
-    ConfigError
-        If an event is not at a whole number of timesteps.
+    rounded
+        A line for each time that is no whole number of timesteps: the event is at the nearest.
 
     """
 
     def __init__(self, changes: Sequence[ScheduledEvent], timestep: float) -> None:
-        self._scene = tuple(
-            Event(whole_steps(c.at, timestep, f'schedule at {c.at:g}'), c) for c in changes
-        )
+        events, lines = [], []
+        for change in changes:
+            step, line = rounded_steps(change.at, timestep, f'schedule at {change.at:g}')
+            events.append(Event(step, change))
+            lines += [line] if line else []
+        self._scene, self.rounded = tuple(events), tuple(lines)
         self._pending: list[tuple[int, int, Event]] = []  # a heap: step, order of coming, event
         self._added: dict[int, Event] = {}  # of this run and still to come, by order of coming
         self._coming = 0

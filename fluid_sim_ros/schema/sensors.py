@@ -78,9 +78,9 @@ class SensorFile(Strict):
     site
         Site of the base body where it sits and along whose axes it measures; default: base_link.
     rate
-        Readings per second of simulated time [Hz]; must divide the step rate.
+        Readings per second of simulated time [Hz], at most the step rate; each at the nearest.
     latency
-        Time from what is measured to the reading [s]; a whole number of timesteps.
+        Time from what is measured to the reading [s]; rounded to whole timesteps, and said so.
     source
         Where the numbers come from.
 

@@ -14,7 +14,7 @@ from fluid_sim_ros.schema.sensors import SensorFile
 from fluid_sim_ros.sensors.mount import Carrier, Mount
 from fluid_sim_ros.sensors.noise import Errors
 from fluid_sim_ros.sensors.reading import Reading
-from fluid_sim_ros.step_clock import period_steps, whole_steps
+from fluid_sim_ros.step_clock import Beat, rounded_steps
 
 #: Linear and angular velocity lie side by side.
 _VELOCITIES = slice(nat.LINEAR_VELOCITY.start, nat.ANGULAR_VELOCITY.stop)
@@ -54,8 +54,11 @@ class Sensor(ABC):
         As above, and where it sits.
     frame, frame_quat_bs
         Name of its coordinate frame, and the turn from that frame to base_link, scalar first.
+    beat
+        At which steps it measures.
     period, latency
-        Steps between two readings, and from what is measured to its reading.
+        Every step at which it measures is a multiple of the period; steps from what is measured
+        to its reading.
     step
         At which it was last updated; -1: never.
     under_way
@@ -73,7 +76,7 @@ class Sensor(ABC):
     Raises
     ------
     ConfigError
-        If the rate, the latency or the site does not fit the model.
+        If the rate or the site does not fit the model.
 
     """
 
@@ -109,8 +112,13 @@ class Sensor(ABC):
         self.mount = Mount.of_site(carrier, config.site, where)
         self.frame = f'{vehicle.name}/{config.kind}'
         self.frame_quat_bs = self.mount.quat_bs_wxyz.copy()
-        self.period = period_steps(config.rate, simulation.timestep, where)
-        self.latency = whole_steps(config.latency, simulation.timestep, f'{where}: latency')
+        self.beat = Beat.at_rate(config.rate, simulation.timestep, f'{where}.rate')
+        self.period = self.beat.period
+        self.latency, rounded = rounded_steps(
+            config.latency, simulation.timestep, f'{where}.latency'
+        )
+        if rounded:
+            simulation.warnings.add(rounded)
         self._simulation, self._state = simulation, carrier.state
         self._arm = self.mount.position_b.tolist()
         self._matrix = np.empty(9)
@@ -122,7 +130,7 @@ class Sensor(ABC):
         width = sum(count for _, count in channels)
         self.values = np.zeros(width)
         # one row for each reading that may be under way, and one for the next
-        self._rows = np.zeros((self.latency // self.period + 2, width))
+        self._rows = np.zeros((self.beat.index(self.latency + 1) + 2, width))
         self.under_way: deque[tuple[int, int, Array]] = deque()
         self.saturated = 0
         self.reset()
@@ -154,12 +162,12 @@ class Sensor(ABC):
             return
         if step < self.step:
             self.reset()
-        elif step > self.step + self.period:  # nobody asked for some time
+        elif step > self.step + self.beat.longest:  # nobody asked for some time
             self.under_way.clear()
         self.step = step
         self.fresh = False
-        if step % self.period == 0:
-            index = step // self.period
+        if self.beat.due(step):
+            index = self.beat.index(step)
             row = self._rows[index % len(self._rows)]
             if self._measure(row):
                 self.saturated += self._errors.apply(index, row)

@@ -48,7 +48,7 @@ class SensorSuite:
     sensors
         Those that there are.
     period
-        Greatest common divisor of all periods and latencies [steps].
+        Every step at which one measures or shows a reading is a multiple of it.
 
     Raises
     ------
@@ -98,7 +98,7 @@ class SensorSuite:
         tick = simulation.tick
         due = forces = False
         for sensor in self.sensors:
-            if tick % sensor.period == 0:
+            if sensor.beat.due(tick):
                 due, forces = True, forces or sensor.needs_forces
         if due:
             simulation.observe(forces, wrenches=False)
@@ -117,7 +117,7 @@ class SensorSuite:
 
         """
         for sensor in self.sensors:
-            if tick % sensor.period == 0 or sensor.under_way or tick <= sensor.step:
+            if sensor.beat.due(tick) or sensor.under_way or tick <= sensor.step:
                 sensor.update(tick, time_ns)
             else:
                 sensor.fresh = False

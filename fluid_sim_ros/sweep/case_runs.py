@@ -179,7 +179,7 @@ class CaseRunner:
         """Step to the end of a run; controller, largest values and watchdogs at their steps."""
         simulation, holds, watch = ready.simulation, ready.controller, ready.watch
         while (now := simulation.step_count) < ready.steps:
-            if holds is not None and now % ready.period == 0:
+            if holds is not None and holds.beat.due(now):
                 holds.answer(simulation)
             look = (now // ready.period + 1) * ready.period
             simulation.step(min(look, watch.next_step, ready.steps) - now)
@@ -237,7 +237,9 @@ class CaseRunner:
         plant, vehicle = self._plant
         holds = hold_controller(sweep.hold, plant, vehicle.name, simulation)
         largest = simulation.largest()
-        return CompiledRun(simulation, steps, holds.period, holds, largest, watch, names, None)
+        return CompiledRun(
+            simulation, steps, holds.beat.period, holds, largest, watch, names, None
+        )
 
 
 class _Batch:

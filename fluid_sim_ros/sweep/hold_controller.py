@@ -17,7 +17,7 @@ from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.loop.hold import state_of
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import period_steps
+from fluid_sim_ros.step_clock import Beat
 from fluid_sim_ros.sweep.sweep_file import Hold, Value
 
 #: Takes a state; returns thrusts [N].
@@ -36,22 +36,22 @@ class HoldController:
         Name of the vehicle.
     row
         Its row in an observation.
-    period
-        Steps between two answers.
+    beat
+        At which steps it answers.
     law
         Makes the law of some gains.
 
     Attributes
     ----------
-    period
-        Steps between two answers.
+    beat
+        As above.
 
     """
 
     def __init__(
-        self, hold: Hold, vehicle: str, row: int, period: int, law: Callable[[Gains], Answer]
+        self, hold: Hold, vehicle: str, row: int, beat: Beat, law: Callable[[Gains], Answer]
     ) -> None:
-        self.period = period
+        self.beat = beat
         self._hold = hold
         self._vehicle = vehicle
         self._row = row
@@ -131,12 +131,12 @@ def hold_controller(
     Raises
     ------
     ConfigError
-        If the rate does not fit the timestep.
+        If the rate is above the step rate.
 
     """
-    period = period_steps(hold.rate, simulation.timestep, "key 'hold.rate'")
+    beat = Beat.at_rate(hold.rate, simulation.timestep, "key 'hold.rate'")
     row = list(simulation.vehicles).index(vehicle)
-    return HoldController(hold, vehicle, row, period, _LAWS[hold.law](hold, plant))
+    return HoldController(hold, vehicle, row, beat, _LAWS[hold.law](hold, plant))
 
 
 def _gains(kind: type[Gains], values: Mapping[str, Any]) -> Gains:

@@ -7,7 +7,7 @@ from test.packaging.layers import LEAVES, ORDER, PACKAGE, circles, dynamic_impor
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Modules that stand at the package's root; everything else has a folder.
-AT_THE_ROOT = {'__init__', 'errors', 'resources', 'step_clock'}
+AT_THE_ROOT = {'__init__', 'errors', 'resources'}
 
 
 def test_the_package_keeps_its_layers():

@@ -41,7 +41,11 @@ def test_two_instances_in_namespaces_do_not_meet():
         ),
         ({'pacing': 'lock'}, 'allowed: realtime, free, lockstep'),
         ({'use_sim_time': True}, 'must be false for this node'),
-        ({'scene': 'sphere', 'odom__rate': 333.0}, 'does not divide the step rate'),
+        (
+            {'scene': 'sphere', 'odom__rate': 600.0, 'tf__rate': 700.0},
+            "parameter 'odom.rate': rate 600 Hz is above the step rate; allowed is at most 500 "
+            "Hz, or a timestep of at most 0.001667 s; parameter 'tf.rate': rate 700 Hz",
+        ),
         ({'scene': 'sphere', 'pacing': 'lockstep'}, 'lockstep needs a topic to wait for'),
         (
             {'scene': 'quadrotor', 'pacing': 'lockstep', 'lockstep__wait_for': '[a/b]'},

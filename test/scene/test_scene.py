@@ -120,10 +120,9 @@ def test_a_fault_in_the_yaml_is_one_line_with_file_and_key(write_scene, text, li
         ('gait: {x: {frequency: 1, amplitudes: [1], phases: [0]}}', "gait: vehicle 'x' is not in"),
         ('gait: {boat: {frequency: 1, amplitudes: [1, 2], phases: [0, 0]}}', 'each of: fin'),
         (
-            'gait: {boat: {frequency: 1, amplitudes: [1], phases: [0], rate: 333}}',
-            'rate 333 Hz does not divide the step rate',
+            'gait: {boat: {frequency: 1, amplitudes: [1], phases: [0], rate: 3333}}',
+            'rate 3333 Hz is above the step rate',
         ),
-        ('schedule: [{at: 0.0015, wind: [1, 0, 0]}]', 'not a whole number of timesteps'),
     ],
 )
 def test_a_name_that_the_model_lacks_is_named_with_those_it_has(write_scene, text, line):
@@ -193,3 +192,16 @@ def test_a_file_that_is_no_model_leaves_no_log_of_mujoco(tmp_path, monkeypatch, 
     assert str(caught.value).startswith(f'{name}: ')
     assert [path.name for path in tmp_path.iterdir()] == [name]
     assert capfd.readouterr() == ('', '')
+
+
+def test_times_that_no_timestep_divides_are_rounded_and_told(write_scene):
+    scene = Scene.load(write_scene(
+        'model: boat.xml\nschedule: [{at: 0.0015, wind: [1, 0, 0]}]\n'
+        'gait: {boat: {frequency: 1, amplitudes: [1], phases: [0], rate: 333}}'
+    ))  # fmt: skip
+    compiled = scene.compile()
+    assert compiled.schedule.next_step == 1
+    event, gait = compiled.rounded
+    assert event.startswith('schedule at 0.0015: 0.0015 s is not a whole number of timesteps')
+    assert gait.startswith("gait of 'boat': rate 333 Hz does not divide the step rate of 500 Hz")
+    assert set(compiled.rounded) <= set(compiled.warnings)

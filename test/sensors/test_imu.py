@@ -123,14 +123,9 @@ def test_reading_never_changes_the_trajectory(brick):
     ('imu', 'line'),
     [
         (
-            {'rate': 300},
-            "brick: vehicle 'brick': sensors.imu: rate 300 Hz does not divide the step rate of "
-            '500 Hz',
-        ),
-        (
-            {'rate': 250, 'latency': 0.003},
-            "brick: vehicle 'brick': sensors.imu: latency: 0.003 s is not a whole number of "
-            'timesteps of 0.002 s',
+            {'rate': 600},
+            "brick: vehicle 'brick': sensors.imu.rate: rate 600 Hz is above the step rate; "
+            'allowed is at most 500 Hz, or a timestep of at most 0.001667 s',
         ),
         (
             {'rate': 250, 'site': 'elsewhere'},

@@ -249,7 +249,6 @@ def fits(rung: Rung, timestep: float, sample: float) -> bool:
     if (exact(sample) / exact(timestep)).denominator != 1:
         return False
     try:
-        rung.scene.compile(RunSettings(timestep=timestep))
+        return not rung.scene.compile(RunSettings(timestep=timestep)).rounded
     except ConfigError:
         return False
-    return True

@@ -141,6 +141,7 @@ def resimulate(
             if not changes:
                 raise
             result.notes.append(f'the changed flight ended: {error}')
+        result.notes += [f'warning: {line}' for line in repetition.simulation.warnings.lines]
     return result
 
 

@@ -3,14 +3,12 @@
 import time
 from collections.abc import Callable
 
-from fluid_sim_ros.loop.pacing import RealTime
+from fluid_sim_ros.loop.pacing import KEPT_PACE, RealTime
 from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.simulation import Simulation
 
-#: Share of the wanted real-time factor below which it is reported.
-_KEPT = 0.95
 #: Wall time over which the speed is measured at least [s].
 _SHORTEST = 0.5
 #: Least wall time between two lines in the log [s].
@@ -88,7 +86,7 @@ class SpeedWatch:
         if isinstance(pacing, RealTime) and ran and wall > _SHORTEST and simulated > 0:
             parts = dict(zip(('commands', 'messages', 'recording'), spent, strict=True))
             parts = {'steps': max(0.0, wall - sum(spent)), **parts}
-            if self.factor < _KEPT * pacing.factor:
+            if self.factor < KEPT_PACE * pacing.factor:
                 line = self._words(pacing.factor, parts, wall, thread)
                 self.shares = {f'{part}_share': f'{s / wall:.2f}' for part, s in parts.items()}
                 self.shares['processor_share'] = f'{thread / wall:.2f}'

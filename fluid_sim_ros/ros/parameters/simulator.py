@@ -71,7 +71,7 @@ TABLE: dict[str, Declared] = {
     'reset.keyframe': Declared('', "keyframe of ~/reset; empty = the scene's", live=True),
     'step_count': Declared(1, 'steps that ~/step takes', low=1, live=True),
     **{
-        name: Declared(rate, '[Hz] of simulated time, must divide the step rate', low=1e-3)
+        name: Declared(rate, '[Hz] of simulated time, at the nearest steps', low=1e-3)
         for name, rate in state_topics.DEFAULTS.items()
         if name.endswith('.rate') and name != 'markers.rate'
     },

@@ -1,5 +1,6 @@
 """Time and ticks where the timestep changes on the way, and a simulation that steps so."""
 
+import math
 from fractions import Fraction
 
 import mujoco
@@ -12,7 +13,7 @@ from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
-from fluid_sim_ros.step_clock import StepClock
+from fluid_sim_ros.step_clock import Beat, StepClock, rounded_steps
 
 RATES = st.integers(500, 8000)
 
@@ -100,3 +101,52 @@ def test_a_timestep_must_be_within_the_scenes(timestep):
 def test_a_gait_keeps_its_timestep():
     with pytest.raises(ConfigError, match='gait keeps'):
         Simulation('swimmer').set_timestep(Fraction(1, 2000))
+
+
+INTERVALS = st.fractions(1, 50, max_denominator=60)
+
+
+@given(INTERVALS)
+def test_a_beat_is_at_the_step_nearest_to_each_multiple_of_its_interval(interval):
+    beat = Beat(interval)
+    wanted = [math.floor(k * interval + Fraction(1, 2)) for k in range(60)]
+    steps = range(wanted[-1] + 1)
+    assert [step for step in steps if beat.due(step)] == wanted
+    assert [beat.index(step) for step in wanted] == list(range(60))
+    following = [min(w for w in wanted if w > step) - step for step in steps[:-1]]
+    assert [beat.until_next(step) for step in steps[:-1]] == following
+    assert max(map(int.__sub__, wanted[1:], wanted)) <= beat.longest
+    assert all(step % beat.period == 0 for step in wanted)
+
+
+@pytest.mark.parametrize(
+    ('timestep', 'steps'),
+    [(0.002, [0, 5, 10]), (0.004, [0, 3, 5, 8]), (0.003, [0, 3, 7, 10]), (1 / 240, [0, 2, 5, 7])],
+)
+def test_a_rate_that_does_not_divide_the_step_rate_is_met_on_average(timestep, steps):
+    beat = Beat.at_rate(100, timestep, 'odom')
+    assert [step for step in range(steps[-1] + 1) if beat.due(step)] == steps
+
+
+@pytest.mark.parametrize(
+    ('rate', 'line'),
+    [
+        (0, 'odom: rate 0 Hz must be above 0'),
+        (600, 'odom: rate 600 Hz is above the step rate; allowed is at most 500 Hz, or a timestep '
+              'of at most 0.001667 s'),
+    ],
+)  # fmt: skip
+def test_a_rate_that_no_timestep_meets_is_refused(rate, line):
+    with pytest.raises(ConfigError) as error:
+        Beat.at_rate(rate, 0.002, 'odom')
+    assert str(error.value) == line
+
+
+def test_a_rounded_time_is_told():
+    assert rounded_steps(0.01, 0.002, 'latency') == (5, '')
+    steps, line = rounded_steps(0.01, 0.003, 'latency')
+    assert steps == 3
+    assert line == (
+        'latency: 0.01 s is not a whole number of timesteps of 0.003 s; '
+        'rounded to 3 steps, 0.009 s'
+    )
