@@ -117,6 +117,8 @@ def data(folder):
 # Tested ranges. The ROS wheels (x86_64 only) are not needed where ROS 2 Jazzy is installed.
 ROS = ['ros-jazzy-rclpy[fastrtps]>=7.1,<8', 'ros-jazzy-common-interfaces>=5.3,<6']
 MAVLINK = ['pymavlink>=2.4.41,<3']
+# Logs of PX4 and of other ROS software, to hold a model against real flights.
+FLIGHTS = ['pyulog>=1.2,<2', 'rosbags>=0.10.6,<1', *MAVLINK]
 RECORD = ['mcap>=1.2,<2', 'zstandard>=0.22,<1']
 CHARTS = ['matplotlib>=3.8,<4']
 PARQUET = ['pyarrow>=16']
@@ -131,11 +133,12 @@ HYDRO = [
     'fast_simplification>=0.2,<0.3', 'pycollada>=0.9,<1', 'xacro>=2.1,<3',
 ]  # fmt: skip
 # All that the commands of README and doc/ use, on one machine without a GPU.
-ALL = [*ROS, *MAVLINK, *RECORD, *RENDER, *CHARTS, *HYDRO, *SWEEP]
+ALL = [*ROS, *MAVLINK, *RECORD, *FLIGHTS, *RENDER, *CHARTS, *HYDRO, *SWEEP]
 TEST = [
     *MAVLINK,
+    *FLIGHTS,
     *RENDER,
-    *RECORD, 'mcap-ros2-support>=0.5,<1', 'rosbags>=0.10.6,<1', 'pyarrow>=16',
+    *RECORD, 'mcap-ros2-support>=0.5,<1', 'pyarrow>=16',
     *CHARTS,
     *HYDRO,
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
@@ -191,6 +194,7 @@ setup(
         'ros': ROS,
         'mavlink': MAVLINK,
         'record': RECORD,
+        'flights': FLIGHTS,
         'render': RENDER,
         'parquet': PARQUET,
         'sweep': SWEEP,

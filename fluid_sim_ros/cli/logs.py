@@ -34,7 +34,11 @@ def add_parsers(commands: Any, show: Show) -> None:
         completion.completed_by(log, completion.files('mcap'))
         return parser
 
-    add('info', 'what is in a log, and whether it is sound', _info)
+    text = 'what is in a log, ours or of other software, and whether it is sound'
+    about = add('info', text, _info)
+    about.add_argument(
+        '--mapping', metavar='FILE', type=Path, help='of a log of other software: what is where'
+    )
     repair = add('repair', 'write all that is sound in a damaged log to a new one', _repair)
     repair.add_argument('out', metavar='OUT', type=Path, help='.mcap file, or a folder: a bag')
 
@@ -66,6 +70,10 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
     from rich.console import Group
     from rich.table import Column, Table
 
+    from fluid_sim_ros.cli.reality.info import flight_info, is_foreign
+
+    if arguments.mapping or is_foreign(Path(arguments.log)):
+        return flight_info(arguments, show)
     from fluid_sim_ros.recording.inspect import info
 
     result = info(arguments.log)

@@ -44,6 +44,9 @@ LIMITS = {
     'model_elements': Limit(100_000, 'elements of the model in a log, replicas counted'),
     'model_bytes': Limit(192 << 20, 'memory for the model in a log, beyond 100 times its files'),
     'model_seconds': Limit(6, 'time to load the model in a log, beyond 2 s per MB [s]'),
+    'flight_bytes': Limit(1 << 30, 'size of a log of other software [bytes]'),
+    'flight_messages': Limit(20_000_000, 'messages of a log of other software'),
+    'flight_samples': Limit(5_000_000, 'samples of a signal of a flight'),
     'drawn_vehicles': Limit(100, 'vehicles of a log that are drawn'),
     'film_pictures': Limit(100_000, 'pictures of a film'),
 }

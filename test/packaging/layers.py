@@ -8,7 +8,7 @@ PACKAGE = 'fluid_sim_ros'
 ORDER = (
     'errors', 'resources', 'step_clock', 'output',
     'physics', 'hydro', 'control', 'plugins',
-    'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop',
+    'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop', 'flights',
     'new_vehicle', 'lab', 'sweep', 'recording', 'mavlink', 'ros',
     'demo', 'cli',
 )  # fmt: skip

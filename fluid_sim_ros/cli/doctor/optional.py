@@ -21,6 +21,9 @@ EXTRAS = {
     'ros': Part(('ros-jazzy-rclpy', 'ros-jazzy-common-interfaces'), 'the node, from pip'),
     'charts': Part(('matplotlib',), 'plot, chart, stability and advise'),
     'record': Part(('mcap', 'zstandard'), '--record, and the commands that read a log'),
+    'flights': Part(
+        ('pyulog', 'rosbags', 'pymavlink'), 'info, compare and fit of logs of other software'
+    ),
     'render': Part(('imageio-ffmpeg', 'pillow'), 'render: a log as a film'),
     'mavlink': Part(('pymavlink',), '--autopilot px4'),
     'parquet': Part(('pyarrow',), 'sweep on threads, and export --parquet'),

@@ -1,0 +1,1 @@
+"""The subcommands that hold a model against real flights: compare, fit, excite."""

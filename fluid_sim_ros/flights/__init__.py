@@ -1,0 +1,1 @@
+"""Flights of real vehicles, by any software, in one form: signals with time, unit and axes."""

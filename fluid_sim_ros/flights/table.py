@@ -1,0 +1,111 @@
+"""Flights as tables: CSV with a line of names first, or Parquet."""
+
+import csv
+import io
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.errors import listed, needed_for, printable
+from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
+from fluid_sim_ros.flights.units import UNITS
+from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.schema.limits import check_limit
+
+STREAM = 'table'
+#: Names of the column of time, and their units.
+_TIMES = {'time': 's', 't': 's', 'time_s': 's', 'time_ms': 'ms', 'time_us': 'us', 'time_ns': 'ns'}
+
+
+def read_table(path: Path, time: str, unit: str) -> RawLog:
+    """
+    Read a table.
+
+    Parameters
+    ----------
+    path
+        A file whose name ends with ``.csv`` or ``.parquet``.
+    time
+        Column of time; '' for one of the usual names.
+    unit
+        Of it: s, ms, us or ns; '' for that of its name.
+
+    Returns
+    -------
+    RawLog
+        One stream, ``table``; an empty cell is a sample that is not there.
+
+    Raises
+    ------
+    FlightError
+        If it holds no table of numbers, or no time.
+
+    """
+    parquet = path.suffix == '.parquet'
+    columns = _parquet(path) if parquet else _csv(path)
+    time = time or next((name for name in columns if name in _TIMES), '')
+    if time not in columns:
+        raise FlightError(
+            f'{path}: has no column of time ({time or listed(_TIMES)}); name it in the mapping, '
+            f'time: {{column: NAME, unit: s}}; columns: {listed(columns)}'
+        )
+    times = columns.pop(time) * UNITS['s'][unit or _TIMES.get(time, 's')]
+    kind = 'Parquet table' if parquet else 'CSV table'
+    return RawLog(path, kind, 'table', {STREAM: Stream(times, columns)})
+
+
+def _csv(path: Path) -> dict[str, Array]:
+    check_limit('csv_bytes', path.stat().st_size, f'{path}: size')
+    try:
+        text = path.read_text(encoding='utf-8-sig')
+    except UnicodeDecodeError as error:
+        raise FlightError(f'{path}: not UTF-8: byte {error.start}') from None
+    rows = csv.reader(io.StringIO(text))
+    try:
+        names = [name.strip() for name in next(rows, [])]
+        values = [row for row in rows if row]
+    except csv.Error as error:
+        raise FlightError(f'{path}: no CSV: {error}') from None
+    check_limit('csv_rows', len(values), f'{path}: rows')
+    if len(set(names)) != len(names) or not names:
+        raise FlightError(f'{path}: the first line must name each column once')
+    table = np.empty((len(values), len(names)))
+    for line, row in enumerate(values):
+        if len(row) != len(names):
+            raise FlightError(
+                f'{path}: row {line + 2} has {len(row)} cells, the first line names {len(names)}'
+            )
+        cells = zip(row, names, strict=True)
+        table[line] = [_number(cell, path, line + 2, name) for cell, name in cells]
+    return {name: table[:, i] for i, name in enumerate(names)}
+
+
+def _number(cell: str, path: Path, row: int, name: str) -> float:
+    try:
+        return float(cell) if cell.strip() else math.nan
+    except ValueError:
+        raise FlightError(
+            f'{path}: row {row}, column {printable(name, 60)!r}: {printable(cell, 60)!r} is no '
+            'number'
+        ) from None
+
+
+def _parquet(path: Path) -> dict[str, Array]:
+    with needed_for('a Parquet table'):
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+    try:
+        table: Any = pq.read_table(path)
+    except (pa.ArrowException, OSError) as error:
+        reason = printable(' '.join(str(error).split()))
+        raise FlightError(f'{path}: no Parquet file ({reason})') from None
+    columns = {}
+    for name in table.column_names:
+        kind = table.schema.field(name).type
+        if pa.types.is_integer(kind) or pa.types.is_floating(kind):
+            column = table.column(name).to_numpy()
+            columns[name] = np.asarray(column, dtype=np.float64)
+    return columns

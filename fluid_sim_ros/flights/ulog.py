@@ -1,0 +1,69 @@
+"""PX4's logs (ULog), by pyulog."""
+
+import struct
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.errors import needed_for, printable
+from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
+
+MAGIC = b'ULog\x01\x12\x35'
+#: Facts that are shown, by their key in the log.
+_ABOUT = {'ver_hw': 'hardware', 'sys_name': 'software', 'ver_sw_branch': 'branch'}
+_PARAMETERS = {'SYS_AUTOSTART': 'airframe', 'MAV_TYPE': 'MAV_TYPE'}
+#: What a damaged log makes pyulog raise.
+_FAULTS = (ValueError, KeyError, IndexError, struct.error, TypeError, AttributeError, EOFError)
+
+
+def read_ulog(path: Path) -> RawLog:
+    """
+    Read a log of PX4.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+
+    Returns
+    -------
+    RawLog
+        One stream per topic; a second instance is ``TOPIC#1``.
+
+    Raises
+    ------
+    FlightError
+        If pyulog finds no log in it.
+
+    """
+    with needed_for('a log of PX4'):
+        from pyulog import ULog
+        from pyulog.exceptions import ULogException
+
+    try:
+        with redirect_stdout(StringIO()):  # pyulog prints what it thinks of a damaged log
+            log: Any = ULog(str(path))
+    except (ULogException, *_FAULTS) as error:
+        raise FlightError(f'{path}: no ULog that pyulog reads ({printable(str(error))})') from None
+    streams = {}
+    for topic in log.data_list:
+        columns = {
+            name: np.asarray(values, dtype=np.float64)
+            for name, values in topic.data.items()
+            if name != 'timestamp' and np.issubdtype(np.asarray(values).dtype, np.number)
+        }
+        name = topic.name if not topic.multi_id else f'{topic.name}#{topic.multi_id}'
+        times = np.asarray(topic.data['timestamp'], dtype=np.float64) * 1e-6
+        streams[name] = Stream(times, columns)
+    lost = sum(drop.duration for drop in log.dropouts) * 1e-3
+    faults = [f'{len(log.dropouts)} dropouts of the logger, {lost:.2f} s together'] * bool(lost)
+    if getattr(log, '_file_corrupt', False):
+        faults.append('damaged: what pyulog could read is read')
+    about = {words: str(log.msg_info_dict[key]) for key, words in _ABOUT.items()
+             if key in log.msg_info_dict}  # fmt: skip
+    about |= {words: f'{log.initial_parameters[key]:g}' for key, words in _PARAMETERS.items()
+              if key in log.initial_parameters}  # fmt: skip
+    return RawLog(path, 'PX4 ULog', 'px4', streams, about, tuple(faults))
