@@ -86,6 +86,11 @@ def refuse_unclear(flight: Flight) -> list[str]:
     flight
         What was read.
 
+    Returns
+    -------
+    list
+        Lines to show.
+
     Raises
     ------
     FlightError

@@ -42,6 +42,11 @@ def read_log(path: Path, mapping: FlightMap | None = None) -> tuple[RawLog, Flig
     mapping
         The user's; None: that of the format.
 
+    Returns
+    -------
+    RawLog, FlightMap
+        What is in it, and which columns are which quantity.
+
     Raises
     ------
     FlightError
@@ -124,6 +129,11 @@ def flight_of(raw: RawLog, mapping: FlightMap, *, strict: bool = False) -> Fligh
         Which columns are which quantity.
     strict
         Whether a quantity that the mapping names must be there.
+
+    Returns
+    -------
+    Flight
+        In the one form.
 
     Raises
     ------
