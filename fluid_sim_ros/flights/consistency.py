@@ -71,6 +71,11 @@ def check_flight(flight: Flight) -> list[Check]:
     flight
         In any state: what is not there is not compared.
 
+    Returns
+    -------
+    list
+        One entry per pair that could be compared.
+
     """
     signals = flight.signals
     checks = [_size(flight)] if 'specific_force' in signals else []
