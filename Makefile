@@ -7,8 +7,9 @@ SHELL := /bin/bash
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
 export ROS_AUTOMATIC_DISCOVERY_RANGE ?= LOCALHOST
-# The tests run two at a time; more threads inside numpy would only get in each other's way.
-PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q --numprocesses 2 \
+# The tests run three at a time, since many wait for other processes; more threads inside numpy
+# would only get in each other's way.
+PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q --numprocesses 3 \
 	--dist loadfile
 
 help:

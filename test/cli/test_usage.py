@@ -207,7 +207,10 @@ def test_a_live_status_line_with_pacing_realtime():
     assert 'rov: 1 s in' in shown
 
 
-@pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ('number', 'code'),
+    [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=pytest.mark.full)],
+)
 def test_the_result_is_shown_and_the_log_closed_on_ctrl_c(number, code, tmp_path):
     log, result = tmp_path / 'a.mcap', tmp_path / 'a.json'
     process = subprocess.Popen(
@@ -236,9 +239,11 @@ def test_the_result_is_shown_and_the_log_closed_on_ctrl_c(number, code, tmp_path
     [
         ['scenes'], ['chart'], ['stability'], ['doctor', 'rov'],
         ['run', 'bluerov2_waves', '--duration', '.1'], ['run', 'amphibious', '--duration', '.1'],
-        ['stability', 'drag', '--cells', '2', '--out', '{tmp}'],
-        ['advise', 'sphere', '--tolerance', '.1', '--budget', '5'],
-        ['chart', 'stokes', '--timesteps', '.01', '.005', '--rounds', '1', '--out', '{tmp}'],
+        *(pytest.param(words, marks=pytest.mark.full) for words in (
+            ['stability', 'drag', '--cells', '2', '--out', '{tmp}'],
+            ['advise', 'sphere', '--tolerance', '.1', '--budget', '5'],
+            ['chart', 'stokes', '--timesteps', '.01', '.005', '--rounds', '1', '--out', '{tmp}'],
+        )),
     ],
 )  # fmt: skip
 def test_tables_fit_80_columns(capsys, monkeypatch, tmp_path, arguments):

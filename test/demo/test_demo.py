@@ -18,6 +18,7 @@ from test.support.ros_processes import wait_until
 pytestmark = pytest.mark.ros
 
 
+@pytest.mark.full  # .ci/run makes the demo itself
 def test_demo_writes_what_it_promises(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / 'out'
     arguments = ['--out', str(out), '--duration', '12', '--json', '-']
@@ -62,7 +63,10 @@ def test_two_runs_are_the_same_to_the_bit(tmp_path: Path) -> None:
         assert (one == other).all(), field
 
 
-@pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ('number', 'code'),
+    [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=pytest.mark.full)],
+)
 def test_a_signal_ends_the_demo_and_its_children(tmp_path: Path, number: int, code: int) -> None:
     command = [sys.executable, '-m', 'fluid_sim_ros.cli', 'demo']
     command += ['--out', str(tmp_path), '--duration', '600']

@@ -74,15 +74,11 @@ EARLIER = {
     'my_scene.yaml': 'cp config/scenes/sphere.yaml my_scene.yaml',
 }
 MAKERS = ('--record flight.mcap', 'new-vehicle bee')
-#: Pages whose commands take longest: run by `make test-full` and .ci/run.
-LONG = ('doc/lab.md', 'doc/logs.md')
+#: Run by `make test-full`, and by .ci/run in a step of their own.
 SHELL = [
-    pytest.param(
-        block, id=f'{block.page}:{block.line}',
-        marks=[pytest.mark.full] if block.page in LONG else [],
-    )
+    pytest.param(block, id=f'{block.page}:{block.line}', marks=pytest.mark.full)
     for block in blocks(shell=True)
-]  # fmt: skip
+]
 PYTHON = [pytest.param(block, id=f'{block.page}:{block.line}') for block in blocks(shell=False)]
 #: Blocks of Python that are a part of a program of the reader's.
 EXCERPTS = {'doc/weather.md': 'uses arrays of the reader'}

@@ -52,6 +52,7 @@ def torpedo(tmp_path, rudder_only=False):
     return tmp_path / 'torpedo.yaml'
 
 
+@pytest.mark.full  # slow
 def test_auv_controller_on_a_torpedo_of_a_user_dives_and_heads_with_its_fins(tmp_path):
     scene = torpedo(tmp_path)
     with Peer() as peer:
@@ -76,6 +77,7 @@ def test_auv_controller_says_which_axis_a_torpedo_lacks(tmp_path):
     assert "the fins of 'eel' do not turn it in pitch: the depth is not held" in pilot.output
 
 
+@pytest.mark.full  # slow
 def test_quad_controller_leaves_the_joints_of_its_vehicle_alone(tmp_path):
     """Such as a gripper: the answers have no values for it."""
     text = (models_folder() / 'x500.xml').read_text()

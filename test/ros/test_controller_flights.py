@@ -54,6 +54,7 @@ def test_free_pacing_is_answered_in_order():
     assert np.isfinite([list(a.effort) for a in answers]).all()
 
 
+@pytest.mark.full  # slow
 def test_realtime_pair_holds_its_place_through_a_reset():
     plan = '[0.0, 0.0, 1.5, 0.0, 0.0]'
     with Peer() as peer:
@@ -79,6 +80,7 @@ def test_lockstep_rov_dives_and_turns():
     assert there[2:] == pytest.approx([-6.0, 1.0], abs=0.01)
 
 
+@pytest.mark.full  # slow
 def test_lockstep_auv_dives_and_heads_for_its_waypoints_by_thrust_and_fins():
     plan = '[8.0, 0.0, -5.0, 3.0, 0.0, 150.0, -75.0, -6.0, 0.0, 0.0]'  # passes the first at once
     with Peer() as peer:
@@ -107,6 +109,7 @@ def fly_in_wind(seconds, **parameters):
     return np.array(rows[: round(100 * seconds)]), output
 
 
+@pytest.mark.full  # slow
 def test_lockstep_plane_holds_altitude_and_heading_in_wind_and_a_gust():
     rows, output = fly_in_wind(20.0, altitude=102.0, heading=0.2)  # wind at 5 s, gust at 10 s
     assert error_lines(output) == []

@@ -12,11 +12,12 @@ from visualization_msgs.msg import MarkerArray
 
 from fluid_sim_ros import Scene, Simulation, scene_names
 from test.support.ros_processes import Peer, node, stamp_ns, wait_until
+from test.support.volumes import quick
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
 
-@pytest.mark.parametrize('scene', scene_names())
+@pytest.mark.parametrize('scene', quick(scene_names(), 'amphibious', 'rov', 'x500_turbulence'))
 def test_every_scene_publishes_at_its_rates_to_another_process(scene):
     vehicle = next(iter(Scene.load(scene).compile().vehicles))
     rates = {'odom__rate': 50.0, 'wrench__rate': 25.0, 'clock__rate': 50.0}

@@ -1,18 +1,27 @@
 """The node as a process: signals, exit codes, two of them, and wrong starts."""
 
 import signal
+from itertools import product
 
 import pytest
 from nav_msgs.msg import Odometry
 
 from test.support.ros_processes import NODE, Peer, Process, error_lines, node, wait_until
+from test.support.volumes import quick
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize('pacing', ['realtime', 'free', 'lockstep'])
-def test_a_signal_ends_the_node_with_exit_code_0(number, pacing):
+PACINGS, SIGNALS = ('realtime', 'free', 'lockstep'), (signal.SIGINT, signal.SIGTERM)
+ENDS = quick(
+    product(PACINGS, SIGNALS), ('realtime', signal.SIGINT), ('free', signal.SIGTERM),
+    ('lockstep', signal.SIGINT),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize('end', ENDS, ids=str)
+def test_a_signal_ends_the_node_with_exit_code_0(end):
+    pacing, number = end
     with Peer() as peer:
         odometry = peer.collect(Odometry, 'x500/odom')
         with node(scene='quadrotor', pacing=pacing) as process:

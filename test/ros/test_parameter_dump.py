@@ -25,6 +25,7 @@ from test.support.ros_processes import (
     node,
     wait_until,
 )
+from test.support.volumes import quick
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
@@ -105,7 +106,7 @@ def test_every_parameter_of_the_node_survives_dump_and_start(tmp_path):
         assert not error_lines(process.output)
 
 
-@pytest.mark.parametrize('kind', KINDS)
+@pytest.mark.parametrize('kind', quick(KINDS, 'quad'))
 def test_every_parameter_of_a_controller_survives_dump_and_start(kind, tmp_path):
     """Also ``nan`` and an empty list of waypoints."""
     path, name = tmp_path / 'p.yaml', f'/{kind}_controller'

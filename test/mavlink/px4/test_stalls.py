@@ -33,6 +33,7 @@ def said(flight, words):
     return [line for _, line in flight.reports if words in line]
 
 
+@pytest.mark.full  # slow
 def test_a_px4_stopped_for_3_s_in_hover_finds_its_vehicle_where_it_was():
     port = free_port('px4')
     command = [sys.executable, '-m', 'test.support.autopilots.px4_program', '-i', str(port - 4560)]
