@@ -167,7 +167,14 @@ setup(
     python_requires='>=3.11,<3.13',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     package_data={
-        PACKAGE: ['py.typed', '**/*.css', '**/*.js', '**/*.html', 'messages/*.json'],
+        PACKAGE: [
+            'py.typed',
+            '**/*.css',
+            '**/*.js',
+            '**/*.html',
+            'messages/*.json',
+            'ros/process/*.xml',
+        ],
     },
     ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
     cmdclass={'build_ext': BuildPluginLibrary},

@@ -13,6 +13,7 @@ from typing import Any
 
 import mujoco
 
+from fluid_sim_ros.ros.process.this_host import stay_on_this_host
 from test.support.paths import ROOT
 
 __all__ = ['RESULTS', 'ROOT', 'arguments', 'commit', 'machine', 'wall_seconds', 'write']
@@ -46,6 +47,7 @@ def arguments(
         parser.add_argument(f'--{option}', help=text)
     for flag, text in (flags or {}).items():
         parser.add_argument(f'--{flag}', action='store_true', help=text)
+    stay_on_this_host()  # also with ROS in this process, and in those that it starts
     return parser.parse_args()
 
 

@@ -58,7 +58,12 @@ def _environment(**values: str) -> Iterator[None]:
 def _stay_on_this_host(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Keep discovery and logs of every test, and of the processes it starts, to themselves."""
     logs = tmp_path_factory.mktemp('ros_log')
-    with _environment(ROS_AUTOMATIC_DISCOVERY_RANGE='LOCALHOST', ROS_LOG_DIR=str(logs)):
+    # imported here, since MuJoCo would be before its renderer is chosen
+    from fluid_sim_ros.ros.process.this_host import FAST_DDS_PROFILES, PROFILE
+
+    profiles = dict.fromkeys(FAST_DDS_PROFILES, str(PROFILE))
+    values = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_LOG_DIR': str(logs)}
+    with _environment(**profiles, **values):
         yield
 
 

@@ -95,7 +95,7 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.loop.recorder_port import selected
     from fluid_sim_ros.recording.writing.rosbag2 import recorded_topic
     from fluid_sim_ros.ros import replay as ros
-    from fluid_sim_ros.ros.process.command_line import check_domain
+    from fluid_sim_ros.ros.process.this_host import check_domain
 
     check_domain()
     options = ros.ReplayOptions(arguments.rate, arguments.loop, arguments.paused)

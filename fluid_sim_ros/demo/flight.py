@@ -16,6 +16,7 @@ from fluid_sim_ros.demo.listener import Listener
 from fluid_sim_ros.demo.summary import SCENE, VEHICLE, WAYPOINTS
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.ros.controllers.states import read_odometry
+from fluid_sim_ros.ros.process.this_host import stay_on_this_host
 
 #: Domains to choose from: above those that people and tests use, and with UDP ports below the
 #: ephemeral ports of Linux.
@@ -60,6 +61,7 @@ def fly_demo(out: Path, duration: float, log: Path | None = None) -> Heard:
     """
     # nobody outside this host is asked, neither by this process nor by its children
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+    stay_on_this_host()
     with _listener() as (listener, domain), _children(out, domain, duration, log) as children:
         _follow(listener, children)
     stamps = [read_odometry(data).stamp_ns for data in listener.messages]

@@ -14,7 +14,7 @@ from fluid_sim_ros.ros.controllers import parameters as controller_parameters
 from fluid_sim_ros.ros.parameters import files
 from fluid_sim_ros.ros.parameters import simulator as parameters
 from fluid_sim_ros.ros.parameters.table import check
-from fluid_sim_ros.ros.process.command_line import check_domain
+from fluid_sim_ros.ros.process.this_host import check_domain
 from test.support.ros_processes import Peer
 
 pytestmark = pytest.mark.ros

@@ -55,7 +55,7 @@ def _domain(rclpy: State) -> Row:
     value = os.environ.get(name, '')
     if rclpy != 'ok':  # the check comes with the node, and a broken rclpy ends the process
         return Row(name, 'absent', value or 'not set', 'first mend ROS 2')
-    from fluid_sim_ros.ros.process.command_line import check_domain
+    from fluid_sim_ros.ros.process.this_host import check_domain
 
     try:
         check_domain()
@@ -76,6 +76,11 @@ def _discovery() -> Row:
         'OFF': 'no other process is found',
         'SYSTEM_DEFAULT': "the middleware's own rule",
     }
+    from fluid_sim_ros.ros.process.this_host import opened
+
+    choice = opened()
+    if choice and value in ('LOCALHOST', 'OFF'):
+        return Row(name, 'ok', f'{value}, with transports or peers of your own ({choice})')
     return Row(name, 'ok', f'{value}: {reach[value]}')
 
 

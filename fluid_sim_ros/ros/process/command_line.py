@@ -1,6 +1,5 @@
 """The command line of a node's executable: its help, and words that ROS does not take."""
 
-import os
 import re
 import shutil
 import textwrap
@@ -14,26 +13,9 @@ from rclpy.utilities import remove_ros_args
 from fluid_sim_ros.errors import ConfigError, did_you_mean
 from fluid_sim_ros.ros.parameters.files import check_parameter_files
 from fluid_sim_ros.ros.parameters.table import Table
+from fluid_sim_ros.ros.process.this_host import check_domain
 
 _HELP = ('-h', '--help')
-#: Largest ROS_DOMAIN_ID whose UDP ports stay below 65536 (OMG DDSI-RTPS 2.5, section 9.6.2.3).
-_LARGEST_DOMAIN = 232
-
-
-def check_domain() -> None:
-    """
-    Check ROS_DOMAIN_ID, and keep discovery on this host unless the user opened it.
-
-    Raises
-    ------
-    ConfigError
-        If the domain is not a whole number from 0 to 232.
-
-    """
-    text = os.environ.get('ROS_DOMAIN_ID', '')
-    if text and not (text.isdecimal() and int(text) <= _LARGEST_DOMAIN):
-        raise ConfigError(f"ROS_DOMAIN_ID is '{text}'; allowed: 0 to {_LARGEST_DOMAIN}")
-    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
 
 
 def asks_for_help(arguments: Sequence[str]) -> bool:
