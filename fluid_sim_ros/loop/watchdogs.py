@@ -34,22 +34,27 @@ class Watchdogs:
         What is watched; its ``warnings`` get the lines.
     show
         Takes each line as it comes up.
+    period
+        Ticks between two looks; default: those of 10 ms.
 
     Attributes
     ----------
     period
-        Ticks between two looks.
+        As above.
 
     """
 
     def __init__(
-        self, simulation: Simulation, show: Callable[[str], None] = lambda line: None
+        self,
+        simulation: Simulation,
+        show: Callable[[str], None] = lambda line: None,
+        period: int | None = None,
     ) -> None:
         self._simulation, self._show = simulation, show
         self._grids, self._energy = GridWatch(simulation), EnergyWatch(simulation)
         self._limits = LimitWatch(simulation.model, simulation.data)
         self._outcome = Outcome(simulation)
-        self.period = max(1, round(_PERIOD / simulation.timestep))
+        self.period = period or max(1, round(_PERIOD / simulation.timestep))
         self._next_energy = self._energy.period
         self._shown = 0
         self._show_new()

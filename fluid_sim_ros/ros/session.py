@@ -87,8 +87,8 @@ class Session:
             self.simulation, settings, self.inputs, self.outputs, self._bridge, report
         )
         self.runner = Runner(
-            self.simulation, self.inputs, [self.outputs], self._pacings.chosen(), requests,
-            self._housekeeping,
+            self.simulation, self.inputs, [self.outputs, self._diagnostics.watchdogs],
+            self._pacings.chosen(), requests, self._housekeeping,
         )  # fmt: skip
         self._diagnosed_at = 0.0
         try:

@@ -16,6 +16,7 @@ from fluid_sim_ros.lab.charts.cost import Curve, step_costs
 from fluid_sim_ros.lab.charts.measure import measure
 from fluid_sim_ros.lab.charts.pareto import FRONT_RANGE, _price_of_more, mark_front, tie
 from fluid_sim_ros.lab.problems.catalogue import problem
+from test.support.paths import ROOT
 
 STEPS = (0.05, 0.01, 0.005, 0.0025, 0.00125)
 SETTING = ('rung', 'integrator', 'timestep_s')
@@ -216,6 +217,18 @@ def test_times_can_be_measured_again_for_errors_that_are_there(tmp_path, capsys)
     assert new['step_us'] != old['step_us']
     assert main(['chart', '--time-again']) == 2
     assert 'needs --from JSON' in capsys.readouterr().err
+
+
+def test_times_of_a_scene_file_are_measured_again_with_that_file(tmp_path, capsys):
+    scene = tmp_path / 'mine.yaml'
+    shutil.copy(ROOT / 'config/scenes/sphere.yaml', scene)
+    quick = ['--timesteps', '.02', '--integrators', 'RK4', '--rounds', '1', '--out', str(tmp_path)]
+    assert main(['chart', str(scene), *quick]) == 0
+    again = ['--from', str(tmp_path / 'mine.json'), '--time-again', '--rounds', '1']
+    again += ['--out', str(tmp_path / 'again')]
+    assert main(['chart', *again]) == 2
+    assert 'name that file, too: fluid_sim chart mine.yaml --from' in capsys.readouterr().err
+    assert main(['chart', str(scene), *again]) == 0
 
 
 def test_the_command_lists_the_problems(capsys):

@@ -66,7 +66,8 @@ def add_parser(commands: Any, show: Show) -> None:
     )  # fmt: skip
     chart.add_argument(
         '--time-again', action='store_true',
-        help='with --from: measure the times anew, on this machine, and keep the errors',
+        help='with --from: measure the times anew, on this machine, and keep the errors; name '
+        'the scene file, too, where it is yours',
     )  # fmt: skip
 
 
@@ -120,9 +121,10 @@ def _charts(
     """Return what is charted, by name, each as a function that measures it."""
     from fluid_sim_ros.lab import results
     from fluid_sim_ros.lab.charts.measure import measure, time_again
-    from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, problem
+    from fluid_sim_ros.lab.problems.catalogue import PROBLEMS, is_scene, problem
     from fluid_sim_ros.lab.problems.problem import INTEGRATORS
 
+    files = {Path(name).stem: name for name in arguments.problem or ()}
     rounds = _QUICK_ROUNDS if arguments.quick else arguments.rounds
 
     def measured(name: str) -> dict[str, Any]:
@@ -137,7 +139,14 @@ def _charts(
         result = results.load(path, 'points')
         if not arguments.time_again:
             return result
-        return time_again(result, problem(result['problem']), rounds=rounds, report=report)
+        name = result['problem']
+        if not (name in PROBLEMS or is_scene(files.get(name, name))):
+            raise ConfigError(
+                f"{path}: its problem '{name}' is a scene file of yours; name that file, too: "
+                f'fluid_sim chart {name}.yaml --from {path} --time-again'
+            )
+        case = problem(files.get(name, name))
+        return time_again(result, case, rounds=rounds, report=report)
 
     if arguments.saved:
         return [(str(path), partial(saved, path)) for path in arguments.saved]

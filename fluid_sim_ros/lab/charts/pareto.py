@@ -66,9 +66,8 @@ def kept(factor: float, ratios: Iterable[float]) -> Tie | None:
         The factor, and how far the nearest ratio is.
 
     """
-    clear = min(
-        (max(ratio / factor, factor / ratio) for ratio in ratios if ratio > 0), default=2.0
-    )
+    known = [ratio for ratio in ratios if 0 < ratio < math.inf]
+    clear = min((max(ratio / factor, factor / ratio) for ratio in known), default=2.0)
     return Tie(factor, clear) if clear >= KEPT_CLEAR else None
 
 

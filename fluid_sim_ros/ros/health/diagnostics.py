@@ -11,6 +11,7 @@ from rclpy.serialization import serialize_message
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.loop.autopilot_port import Bridge
+from fluid_sim_ros.loop.energy_watch import energy_period
 from fluid_sim_ros.loop.pacing import Lockstep, RealTime
 from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.loop.runner import Runner
@@ -64,6 +65,8 @@ class Diagnostics:
         Place of /diagnostics in the log, or -1.
     publisher
         Of /diagnostics.
+    watchdogs
+        A sink of the runner; its lines are in the log, too.
 
     """
 
@@ -90,7 +93,9 @@ class Diagnostics:
         self._misses = 0
         for name, terms in simulation.terms.items():
             node.get_logger().info(f'{name}: terms: {listed(terms)}')
-        self._watchdogs = Watchdogs(simulation, node.get_logger().warning)
+        self.watchdogs = Watchdogs(
+            simulation, node.get_logger().warning, energy_period(simulation.timestep)
+        )
 
     def publish(self, runner: Runner, diverged: str) -> None:
         """
@@ -192,7 +197,7 @@ class Diagnostics:
             for warning in _LIMIT_WARNINGS
         }
         balance = self._simulation.energy_balance()
-        self._watchdogs.write(self._simulation)
+        self.watchdogs.write(self._simulation)
         values = {
             'kinetic_energy_J': f'{balance.kinetic:.6g}',
             'integrator_feed_W': f'{balance.feed:.3g}',
