@@ -43,7 +43,7 @@ def _parameter_row(name: str, declared: Any) -> str:
     if isinstance(default, bool):
         default = str(default).lower()
     default = '(empty)' if default in ('', ['']) else f'`{default}`'
-    live = 'yes' if declared.live else 'no'
+    live = 'yes' if declared.live else 'at start' if declared.names_place else 'no'
     return f'| `{name}` | {default} | {live} | {declared.description} |'
 
 

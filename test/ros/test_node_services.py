@@ -92,6 +92,9 @@ def test_parameters_fixed_and_live():
     with Peer() as peer, node(scene='sphere', realtime__factor=2) as process:
         refused = set_parameter(peer, 'scene', **string('rov'))
         assert not refused.successful
+        assert 'fixed after the start' in refused.reason
+        refused = set_parameter(peer, 'integrator', **string('rk4'))
+        assert not refused.successful
         assert 'fixed while the node is configured' in refused.reason
         refused = set_parameter(
             peer, 'use_sim_time', type=ParameterType.PARAMETER_BOOL, bool_value=True
@@ -126,7 +129,7 @@ def test_a_second_publisher_of_clock_and_a_namesake_are_reported():
 
 
 def test_lifecycle_by_hand():
-    with Peer() as peer, node(scene='sphere', autostart=False) as process:
+    with Peer() as peer, node(scene='sphere', autostart=False, allow_remote_paths=True) as process:
 
         def change(transition):
             request = Transition(id=transition)

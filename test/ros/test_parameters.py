@@ -63,12 +63,45 @@ def test_physics_is_fixed_while_configured_and_pacing_is_not():
 
     with Peer() as peer:
         parameters.declare_all(peer.node)
-        refused = judge('scene', 'rov')
+        refused = judge('seed', 7)
         assert not refused.successful
         assert 'fixed while the node is configured' in refused.reason
-        assert judge('scene', 'rov', configured=False).successful
-        assert judge('scene', 'quadrotor').successful  # what it is already
+        assert judge('seed', 7, configured=False).successful
+        assert judge('seed', 0).successful  # what it is already
         assert judge('pacing', 'free').successful
+
+
+PLACES = {
+    'scene': '/etc/passwd', 'record.path': '/etc/profile', 'record.allow_assets_from': '/etc',
+    'autopilot.mapping': '/etc/passwd', 'autopilot.address': '0.0.0.0',
+}  # fmt: skip
+
+
+def test_no_other_participant_sets_what_names_a_file_or_an_address():
+    assert PLACES.keys() == {name for name, entry in parameters.TABLE.items() if entry.names_place}
+    with Peer() as peer:
+        parameters.declare_all(peer.node)
+        # also where it asks for the permission in the same breath
+        permission = Parameter('allow_remote_paths', value=True)
+        for name, value in PLACES.items():
+            for changes in ([Parameter(name, value=value)], [permission]):
+                refused = parameters.judge_change(peer.node, changes, configured=False)
+                assert not refused.successful
+                assert 'fixed after the start' in refused.reason
+            present = [peer.node.get_parameter(name)]
+            assert parameters.judge_change(peer.node, present, configured=True).successful
+
+
+def test_whoever_starts_the_node_may_let_others_set_them():
+    with Peer(parameter_overrides=[Parameter('allow_remote_paths', value=True)]) as peer:
+        parameters.declare_all(peer.node)
+        for name, value in PLACES.items():
+            change = [Parameter(name, value=value)]
+            assert parameters.judge_change(peer.node, change, configured=False).successful
+            refused = parameters.judge_change(peer.node, change, configured=True)
+            assert 'fixed while the node is configured' in refused.reason
+        change = [Parameter('allow_remote_paths', value=False)]
+        assert not parameters.judge_change(peer.node, change, configured=False).successful
 
 
 @pytest.mark.parametrize('path', sorted((config_folder() / 'params').glob('*.yaml')), ids=str)

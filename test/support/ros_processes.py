@@ -92,10 +92,10 @@ def controller(kind, **parameters):
 class Peer:
     """A ROS node in this process, with a context of its own and an executor in a thread."""
 
-    def __init__(self, name='peer'):
+    def __init__(self, name='peer', **settings):
         self.context = Context()
         rclpy.init(context=self.context)
-        self.node = rclpy.create_node(name, context=self.context)
+        self.node = rclpy.create_node(name, context=self.context, **settings)
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)
         self._thread = threading.Thread(target=self._spin)

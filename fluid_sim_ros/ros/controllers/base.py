@@ -31,7 +31,8 @@ from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.state_source import StateSource
 from fluid_sim_ros.ros.controllers.states import StampedState
 from fluid_sim_ros.ros.health.connections import Connections
-from fluid_sim_ros.ros.parameters.table import Table, declare, judge, value_of
+from fluid_sim_ros.ros.parameters.changes import judge
+from fluid_sim_ros.ros.parameters.table import Table, declare, value_of
 from fluid_sim_ros.ros.raw import PolledSubscription, RawPublisher, WaitSet
 from fluid_sim_ros.simulation.plant import plant_of
 

@@ -11,6 +11,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import EARTHS, LOOPBACK, PROTOCOLS, TIMEOUT_RULES
 from fluid_sim_ros.messages import commands, state_topics
 from fluid_sim_ros.ros.parameters import table as parameter_table
+from fluid_sim_ros.ros.parameters.changes import ALLOW_REMOTE_PATHS, judge
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.raw import parameter_overrides
 from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
@@ -21,7 +22,9 @@ RECORD_POLICIES = ('block', 'drop')
 THRUST_UNITS = ('newton', 'normalized')
 
 TABLE: dict[str, Declared] = {
-    'scene': Declared('quadrotor', 'scene name, or path of a scene (.yaml) or MJCF (.xml) file'),
+    'scene': Declared(
+        'quadrotor', 'scene name, or path of a scene (.yaml) or MJCF (.xml) file', names_place=True
+    ),
     'seed': Declared(0, 'seed of everything random', low=0),
     'timestep': Declared(0.0, "[s] replaces the model's timestep; 0 = the model's", low=0, high=1),
     'integrator': Declared(
@@ -31,6 +34,9 @@ TABLE: dict[str, Declared] = {
         '', "replaces the model's fluid forces; empty = the model's", choices=('', *FLUID_RUNGS)
     ),
     'autostart': Declared(True, 'configure and activate at start'),
+    ALLOW_REMOTE_PATHS: Declared(
+        False, 'others may set, while the node is not configured, what names files or addresses'
+    ),
     'duration': Declared(0.0, '[s] simulated time after which the node ends; 0 = never', low=0),
     'pacing': Declared('realtime', 'how fast simulated time passes', choices=PACINGS, live=True),
     'realtime.factor': Declared(
@@ -88,6 +94,7 @@ TABLE: dict[str, Declared] = {
         'MCAP file (.mcap) to record to, or a folder that becomes a rosbag2 bag; empty = no '
         'recording; a reset begins a new one',
         former='record',
+        names_place=True,
     ),
     'record.topics': Declared(
         ['*'],
@@ -102,20 +109,24 @@ TABLE: dict[str, Declared] = {
         1.0, '[s] wall time after which data is on the disk', low=0.05, high=3600
     ),
     'record.allow_assets_from': Declared(
-        '', "folder outside of the model's whose files a log may hold, if the model names them"
+        '', "folder outside of the model's whose files a log may hold, if the model names them",
+        names_place=True,
     ),
     'autopilot.protocol': Declared(
         'none', 'autopilot that flies a vehicle, in lockstep', choices=('none', *PROTOCOLS)
     ),
     'autopilot.vehicle': Declared('', 'vehicle that it flies; empty = the only one'),
     'autopilot.mapping': Declared(
-        '', 'what its outputs drive: name in config/autopilots, or file; empty = by vehicle'
+        '', 'what its outputs drive: name in config/autopilots, or file; empty = by vehicle',
+        names_place=True,
     ),
     'autopilot.instance': Declared(0, 'its number on this host', low=0, high=250),
     'autopilot.port': Declared(
         0, 'port to listen on; 0 = that of the protocol and the instance', low=0, high=65535
     ),
-    'autopilot.address': Declared(LOOPBACK, 'address to listen on; loopback = this host only'),
+    'autopilot.address': Declared(
+        LOOPBACK, 'address to listen on; loopback = this host only', names_place=True
+    ),
     'autopilot.timeout': Declared(
         60.0, '[s] wall time that a silent one is waited for; simulated time stands still',
         low=0.01, high=86400,
@@ -208,4 +219,4 @@ def judge_change(
     if any(change.name == 'use_sim_time' and change.value for change in parameters):
         return SetParametersResult(successful=False, reason=USE_SIM_TIME_REFUSED)
     fixed = 'the node is configured (cleanup first)' if configured else ''
-    return parameter_table.judge(node, TABLE, parameters, fixed)
+    return judge(node, TABLE, parameters, fixed)

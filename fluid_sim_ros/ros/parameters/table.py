@@ -9,10 +9,8 @@ from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
     ParameterDescriptor,
-    SetParametersResult,
 )
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.ros.raw import parameter_overrides
@@ -45,6 +43,9 @@ class Declared:
         ``nan`` is allowed and means what the description says.
     former
         Name that it had in the last release, which is still understood at the start.
+    names_place
+        Names a file or an address of this host, so that nobody else shall set it: it may change
+        after the start only where ``allow_remote_paths`` was set there.
 
     """
 
@@ -57,6 +58,7 @@ class Declared:
     live: bool = False
     may_be_nan: bool = False
     former: str = ''
+    names_place: bool = False
 
 
 Table = Mapping[str, Declared]
@@ -225,14 +227,6 @@ def _holds_texts(declared: Declared) -> bool:
     return bool(declared.default) and isinstance(declared.default[0], str)
 
 
-def _is_same(node: Node, declared: Declared, change: Parameter) -> bool:
-    present = converted(declared, node.get_parameter(change.name).value)
-    wanted = converted(declared, change.value)
-    if isinstance(declared.default, list):
-        return list(present) == list(wanted)
-    return bool(present == wanted) or (present != present and wanted != wanted)  # both nan
-
-
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
@@ -256,40 +250,3 @@ def _check_range(where: str, declared: Declared, values: Sequence[float]) -> str
         if not (math.isfinite(value) and declared.low <= value <= declared.high):
             return f'{where} is out of range; allowed: {declared.low:g} to {declared.high:g}'
     return None
-
-
-def judge(
-    node: Node, table: Table, changes: Sequence[Parameter], fixed: str
-) -> SetParametersResult:
-    """
-    Accept or refuse a change at run time.
-
-    Parameters
-    ----------
-    node
-        The node.
-    table
-        Its parameters by name.
-    changes
-        What shall be changed.
-    fixed
-        While what the parameters that are not live keep their values; empty: they may change
-        now. To set one to the value that it has (``ros2 param load``) is no change.
-
-    Returns
-    -------
-    SetParametersResult
-        Whether it is accepted, and the reason where it is not.
-
-    """
-    for change in changes:
-        declared = table.get(change.name)
-        if declared is None:
-            continue
-        fault = check(table, change.name, change.value)
-        if fault is None and fixed and not declared.live and not _is_same(node, declared, change):
-            live = listed(name for name, entry in table.items() if entry.live)
-            fault = f"parameter '{change.name}': fixed while {fixed}; changeable: {live}"
-        if fault:
-            return SetParametersResult(successful=False, reason=fault)
-    return SetParametersResult(successful=True)
