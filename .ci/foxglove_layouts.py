@@ -19,7 +19,10 @@ def shown() -> dict[str, tuple[str, str]]:
     """Return scene and vehicle by the name of the layout."""
     found: dict[str, tuple[str, str]] = {}
     for scene in scene_names():
-        for vehicle in Scene.load(scene).vehicles or {}:
+        loaded = Scene.load(scene)
+        if loaded.fleet is not None:  # its vehicles have layouts by the name of their model
+            continue
+        for vehicle in loaded.vehicles or {}:
             # the scene that is called as the vehicle is, before others that it is in
             if vehicle not in found or scene == vehicle:
                 found[vehicle] = (scene, vehicle)

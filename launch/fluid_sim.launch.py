@@ -2,6 +2,8 @@
 The simulator, and optionally one of the example controllers, on an installed ROS 2.
 
 ros2 launch fluid_sim_ros fluid_sim.launch.py scene:=quadrotor controller:=quad_controller
+ros2 launch fluid_sim_ros fluid_sim.launch.py scene:=fleet_x500 controller:=quad_controller \
+    vehicles:=one,two,three,four
 """
 
 import os
@@ -19,7 +21,7 @@ def nodes(context):
     """Return the nodes, now that the arguments have values."""
     values = {
         name: LaunchConfiguration(name).perform(context)
-        for name in ('scene', 'pacing', 'controller', 'namespace', 'params_file')
+        for name in ('scene', 'pacing', 'controller', 'vehicles', 'namespace', 'params_file')
     }
     # An argument that is not given leaves the word to the file, and the file to the node.
     files = [values['params_file']] if values['params_file'] else []
@@ -39,8 +41,20 @@ def nodes(context):
     )
     if values['controller'] == 'none':
         return [simulator]
-    controller = Node(executable=values['controller'], parameters=[*files, *scene], **common)
-    return [simulator, controller]
+    executable, vehicles = values['controller'], values['vehicles'].replace(' ', '')
+    if not vehicles:
+        controller = Node(executable=executable, parameters=[*files, *scene], **common)
+        return [simulator, controller]
+    controllers = [
+        Node(
+            executable=executable,
+            name=f'{executable}_{vehicle}',
+            parameters=[*files, *scene, {'vehicle': vehicle}],
+            **common,
+        )
+        for vehicle in vehicles.split(',')
+    ]
+    return [simulator, *controllers]
 
 
 def generate_launch_description():
@@ -53,6 +67,9 @@ def generate_launch_description():
         ),
         DeclareLaunchArgument(
             'controller', default_value='none', choices=CONTROLLERS, description='who commands'
+        ),
+        DeclareLaunchArgument(
+            'vehicles', default_value='', description='one controller for each: one,two,...'
         ),
         DeclareLaunchArgument('namespace', default_value='', description='before every topic'),
         DeclareLaunchArgument(

@@ -16,6 +16,7 @@ import json
 import sys
 import tempfile
 from collections import defaultdict
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -86,10 +87,10 @@ def record(scene: str, options: tuple[str, ...]) -> dict[str, str]:
     return {topic: seen.hexdigest()[:16] for topic, seen in sorted(topics.items())}
 
 
-def fingerprints() -> dict[str, Any]:
-    """Return the fingerprints of all scenes and recorded flights."""
+def fingerprints(chosen: Iterable[str]) -> dict[str, Any]:
+    """Return the fingerprints of scenes and of recorded flights."""
     scenes: dict[str, dict[str, str]] = {}
-    for scene in scene_names():
+    for scene in chosen:
         flights = {str(name or 'its own'): outcome(scene, integrator=name) for name in INTEGRATORS}
         flights |= {f'fluid {fluid}': outcome(scene, fluid=fluid) for fluid in FLUIDS}
         scenes[scene] = flights
@@ -114,11 +115,14 @@ if __name__ == '__main__':
     parser.add_argument('--json', type=Path, help='write the fingerprints')
     parser.add_argument('--against', type=Path, help='compare with those of another tree')
     given = parser.parse_args()
-    found = fingerprints()
+    # a scene that is new has nothing to be compared with
+    old = json.loads(given.against.read_text(encoding='utf-8')) if given.against else {}
+    found = fingerprints(old['scenes'] if old and not given.json else scene_names())
     if given.json:
         given.json.write_text(json.dumps(found, indent=1) + '\n', encoding='utf-8')
     if given.against:
-        lines = differences(json.loads(given.against.read_text(encoding='utf-8')), found)
+        known = {key: {n: v for n, v in found[key].items() if n in old[key]} for key in found}
+        lines = differences(old, known)
         count = sum(map(len, found['scenes'].values())) + sum(map(len, found['logs'].values()))
         print(*lines, f'{count} fingerprints, {len(lines)} differ', sep='\n')
         sys.exit(1 if lines else 0)

@@ -40,7 +40,7 @@ def examine_scene(scene: str | Path) -> list[Row]:
     source = simulation.flow_source
     stated = simulation.scene
     return [
-        Row('scene', 'ok', f'{stated.name}, {stated.model_path.name}'),
+        Row('scene', 'ok', f'{stated.name}, {_source(stated)}'),
         Row('vehicles', 'ok', listed(simulation.vehicles)),
         Row('flow', 'ok', f'{source}: {_SOURCES[source]}'),
         *(
@@ -82,6 +82,14 @@ def advised_settings(scene: str | Path) -> RunSettings:
             f'fluid_sim advise {scene} --tolerance 0.01 --keep writes them into its YAML file'
         )
     return loaded.advised.settings
+
+
+def _source(scene: Scene) -> str:
+    world = scene.model_path.name
+    if scene.fleet is None:
+        return world
+    kinds = dict.fromkeys(member.kind for member in scene.fleet.members.values())
+    return f'{listed(kinds)} in the world of {world}'
 
 
 def _models(models: Sequence[Any]) -> str:

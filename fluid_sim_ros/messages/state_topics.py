@@ -200,7 +200,9 @@ class StateTopics:
         """
         model, data = self._simulation.model, self._simulation.observed
         joints = [j for j in range(model.njnt) if _is_single_joint(model, j, vehicle.body_id)]
-        names = [model.joint(j).name or f'joint{j}' for j in joints] + list(vehicle.thrusters)
+        names = [
+            model.joint(j).name.removeprefix(vehicle.prefix) or f'joint{j}' for j in joints
+        ] + list(vehicle.thrusters)
         if not names:
             return
         numbers = np.zeros((3, len(names)))

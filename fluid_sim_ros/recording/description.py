@@ -17,7 +17,13 @@ from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions
 from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.model.cost import check_elements
 from fluid_sim_ros.recording.model.files import gather
-from fluid_sim_ros.recording.model.sources import AttachedFiles, model_of_disk
+from fluid_sim_ros.recording.model.fleet import (
+    fleet_of_log,
+    gathered_models,
+    of_log,
+    read_fleet,
+)
+from fluid_sim_ros.recording.model.sources import AttachedFiles, files_of
 from fluid_sim_ros.recording.run_file import BESIDE, FORMAT, SCENE, read_run, read_scene
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
@@ -98,10 +104,16 @@ class RunDescription:
         if not isinstance(text, str):
             raise LogError("run.json: scene: key 'mjcf': must be a text")
         model = gather(path, AttachedFiles(self.files).read, text.encode() if text else None)
-        check_elements(model)
+        fleet, models = None, []
+        if stated.get('fleet') is not None:
+            fleet = read_fleet(stated['fleet'])
+            models = gathered_models(fleet, self.files)
+            fleet = of_log(fleet, models)
+        check_elements(model, *models)
         return Scene(
-            **read_scene(stated), model_path=Path(path), mjcf=model.text, assets=model.assets
-        )
+            **read_scene(stated), model_path=Path(path), mjcf=model.text, assets=model.assets,
+            fleet=fleet,
+        )  # fmt: skip
 
     def restore(self, simulation: Simulation, changed: bool = False) -> None:
         """
@@ -173,7 +185,12 @@ def describe(
     if simulation.step_count:
         raise LogError('a recording must begin at step 0 (after a reset)')
     saved = simulation.save_state()
-    model_path, files = _model_files(simulation.scene, options)
+    scene = simulation.scene
+    model_path, files = _model_files(scene, options)
+    stated = SCENE.dump_python(scene, mode='json', exclude=BESIDE)
+    if scene.fleet is not None:
+        stated['fleet'], attached = fleet_of_log(scene.fleet, options)
+        files |= attached
     integrator = mujoco.mjtIntegrator(simulation.model.opt.integrator).name
     run = {
         'format': FORMAT,
@@ -186,8 +203,7 @@ def describe(
             'python': platform.python_version(),
             'machine': f'{platform.system()} {platform.machine()}',
         },
-        'scene': SCENE.dump_python(simulation.scene, mode='json', exclude=BESIDE)
-        | {'model_path': model_path},
+        'scene': stated | {'model_path': model_path},
         'seed': simulation.seed,
         'timestep': simulation.timestep,
         'integrator': integrator.removeprefix('mjINT_').lower(),
@@ -206,9 +222,7 @@ def describe(
 
 def _model_files(scene: Scene, options: RecorderOptions) -> tuple[str, dict[str, bytes]]:
     """Return a scene's model and the files that it names, by paths as the log has them."""
-    if scene.assets:  # it came out of a log
-        return 'model.xml', {'model.xml': scene.mjcf.encode(), **scene.assets}
-    return model_of_disk(scene.model_path, options.allow_assets_from, scene.mjcf)
+    return files_of(scene.model_path, scene.mjcf, scene.assets, options.allow_assets_from)
 
 
 def git_commit() -> str | None:

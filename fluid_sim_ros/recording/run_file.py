@@ -19,7 +19,7 @@ FORMAT = 1
 #: Turns every field of a scene into JSON and back.
 SCENE = TypeAdapter(Scene)
 #: Fields of a scene that stand beside it in a log: the model is an attachment.
-BESIDE = {'model_path', 'mjcf', 'assets'}
+BESIDE = {'model_path', 'mjcf', 'assets', 'fleet'}
 _NAMED_VERSIONS = ('fluid_sim_ros', 'mujoco', 'machine')
 
 

@@ -5,15 +5,19 @@ from pathlib import Path
 
 import mujoco
 
-from fluid_sim_ros.errors import ConfigError, ModelError, did_you_mean, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.plugins import load_plugins
-from fluid_sim_ros.plugins.attached import crashing_replicate, dropped_plugin
 from fluid_sim_ros.resources import config_folder, models_folder
+from fluid_sim_ros.scene.fleet.checks import check_apart
+from fluid_sim_ros.scene.fleet.compose import compose
+from fluid_sim_ros.scene.fleet.fluids import check_rung
+from fluid_sim_ros.scene.fleet.members import START, Fleet, prefix_of
 from fluid_sim_ros.scene.fluid_models import compile_spec, force_fluid
 from fluid_sim_ros.scene.gaits import Gaits
 from fluid_sim_ros.scene.load_warnings import load_warnings
 from fluid_sim_ros.scene.masses import scale_masses
 from fluid_sim_ros.scene.media import streams_of
+from fluid_sim_ros.scene.read_spec import read_spec
 from fluid_sim_ros.scene.scene_files import scene_fields, scene_names
 from fluid_sim_ros.scene.schedule import Schedule, check_schedule
 from fluid_sim_ros.scene.vehicle import Vehicle, free_bodies, resolve
@@ -58,9 +62,11 @@ class Scene:
     name
         Name in config/scenes, or the stem of the given file.
     model_path
-        The MJCF file.
+        The MJCF file; of a fleet, that of its world.
     mjcf, assets
         The model itself as text, in place of the file, and the files that it names.
+    fleet
+        Vehicles of models of their own, in the world of ``model_path``; or None.
     description, medium, duration, keyframe, home, waves, wind, current, schedule, gait
         As in the YAML file (config/scenes); ``medium`` is ``air``, ``water`` or None (by density).
     timestep, integrator, fluid
@@ -87,6 +93,7 @@ class Scene:
     schedule: tuple[ScheduledEvent, ...] = ()
     gait: dict[str, Gait] = field(default_factory=dict)
     vehicles: dict[str, VehicleFile] | None = field(default=None)
+    fleet: Fleet | None = None
     mjcf: str = ''
     assets: dict[str, bytes] = field(default_factory=dict, repr=False)
     timestep: float | None = None
@@ -170,23 +177,28 @@ class Scene:
         load_plugins()
         settings = settings.over(self.settings)
         fluid, seed = settings.fluid, settings.seed
-        spec = self.read_model()
-        scale_masses(spec, self.masses, self.model_path)
+        spec, notes = self._composed(settings)
+        source = self._source
+        scale_masses(spec, self.masses, source)
         if settings.timestep is not None:
             spec.option.timestep = settings.timestep
         if settings.integrator_id is not None:
             spec.option.integrator = settings.integrator_id
         dry = None
         if fluid == 'none':  # wind and current still may be commanded, to no effect
-            dry = streams_of(compile_spec(spec, self.model_path), self.medium)
+            dry = streams_of(compile_spec(spec, source), self.medium)
         if fluid is not None:
-            force_fluid(spec, fluid, self.model_path)
+            if self.fleet is not None:
+                check_rung(spec, fluid, self.name)
+            force_fluid(spec, fluid, source)
         if self.waves is not None and fluid in (None, 'no_added_mass'):  # others: no surface
             add_waves(spec, self.waves.keys(seed), self.name)
         if fluid != 'none':
             apply_weather(spec, self.wind, self.current, seed, self.name)
-        model = compile_spec(spec, self.model_path)
+        model = compile_spec(spec, source)
         vehicles = self._vehicles(model)
+        if self.fleet is not None:
+            notes += check_apart(model, vehicles, self.name)
         check_limit('scene_events', len(self.schedule), f'{self.name}: events of the schedule')
         schedule = Schedule(self.schedule, model.opt.timestep)
         check_schedule(self.schedule, vehicles, self.name)
@@ -195,38 +207,50 @@ class Scene:
         self._check_weather(streams)
         self._check_keyframe(model)
         rounded = schedule.rounded + gaits.rounded
-        warnings = (*load_warnings(model, every_free_body=self.vehicles is None), *rounded)
+        loaded = load_warnings(model, every_free_body=self.vehicles is None)
+        warnings = (*loaded, *notes, *rounded)
         return CompiledScene(model, vehicles, schedule, gaits, streams, rounded, warnings)
 
     def read_model(self) -> mujoco.MjSpec:
-        """Return the model as it is written, or raise ModelError."""
-        if crash := crashing_replicate(self._text()):
-            raise ModelError(f'{self.model_path}: {crash}')
-        try:
-            if self.mjcf:
-                # some are read with the text (models, flexes), the others when it is compiled
-                spec = mujoco.MjSpec.from_string(self.mjcf, self.assets, self.assets)
-            else:
-                spec = mujoco.MjSpec.from_file(str(self.model_path))
-        except ValueError as error:
-            raise ModelError(f'{self.model_path}: {" ".join(str(error).split())}') from None
-        if lost := dropped_plugin(spec):
-            raise ModelError(f'{self.model_path}: {lost}')
-        return spec
+        """Return the model as it is written, that of a fleet composed; or raise an error."""
+        return self._composed(_AS_STATED.over(self.settings))[0]
 
-    def _text(self) -> str:
-        if self.mjcf or not self.model_path.is_file():
-            return self.mjcf
-        return self.model_path.read_text(encoding='utf-8', errors='replace')
+    @property
+    def first_keyframe(self) -> str | None:
+        """The keyframe that the scene begins at; None: as the model stands."""
+        return START if self.keyframe is None and self.fleet is not None else self.keyframe
+
+    @property
+    def _source(self) -> Path:
+        """What an error of the compiler names: the model, or the scene that composes one."""
+        return self.model_path if self.fleet is None else Path(f'{self.name} (composed)')
+
+    def _composed(self, settings: RunSettings) -> tuple[mujoco.MjSpec, list[str]]:
+        spec = read_spec(self.model_path, self.mjcf, self.assets)
+        if self.fleet is None:
+            return spec, []
+        stated = {key for key in ('timestep', 'integrator') if getattr(settings, key) is not None}
+        return spec, compose(spec, self.fleet, self.vehicles or {}, stated, self.name)
 
     def _vehicles(self, model: mujoco.MjModel) -> dict[str, Vehicle]:
         files = self.vehicles
         if files is None:
             files = free_bodies(model, self.model_path)
-        return {
-            name: resolve(name, file, model, f'{self.name}: vehicle {name!r}')
-            for name, file in files.items()
-        }
+        members = {} if self.fleet is None else self.fleet.members
+        found = {}
+        for name, file in files.items():
+            where = f'{self.name}: vehicle {name!r}'
+            if name not in members:
+                found[name] = resolve(name, file, model, where)
+                continue
+            kind = members[name].kind
+            found[name] = resolve(name, file, model, where, prefix_of(name), kind)
+            if members[name].autopilot is not None and not found[name].thrusters:
+                raise ConfigError(
+                    f"{where}: its model '{kind}' has no thrusters for an autopilot to drive; "
+                    "leave out 'autopilot', or name them in its vehicle file"
+                )
+        return found
 
     def _check_weather(self, streams: tuple[str, ...]) -> None:
         for name, models in (('wind', self.wind), ('current', self.current)):

@@ -3,11 +3,13 @@
 from pathlib import Path
 from typing import Any
 
-from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.resources import config_folder, models_folder
+from fluid_sim_ros.scene.fleet.files import fleet_fields, is_fleet
+from fluid_sim_ros.scene.vehicle_files import model_file, vehicle_file
 from fluid_sim_ros.scene.weather_files import with_files
 from fluid_sim_ros.schema.base import parse
-from fluid_sim_ros.schema.scene import SceneFile, VehicleFile
+from fluid_sim_ros.schema.fleet import FleetFile
+from fluid_sim_ros.schema.scene import SceneFile, SceneKeys
 from fluid_sim_ros.schema.yaml_file import read_yaml
 
 
@@ -38,42 +40,29 @@ def scene_fields(path: Path) -> dict[str, Any]:
         For a fault of any of the files (file, key, value, what is allowed).
 
     """
-    content = parse(SceneFile, read_yaml(path), path)
-    model_path = (path.parent / content.model).resolve()
-    if not content.model.endswith(('.xml', '.mjcf')):
-        model_path = models_folder() / f'{content.model}.xml'
-    if not model_path.is_file():
-        known = sorted(p.stem for p in models_folder().glob('*.xml'))
-        raise ConfigError(
-            f"{path}: key 'model': no model '{content.model}'{did_you_mean(content.model, known)} "
-            f'models: {listed(known)}; '
-            'or give the path of an MJCF file, relative to this file'
-        )
+    raw = read_yaml(path)
+    if is_fleet(raw):
+        fleet = parse(FleetFile, raw, path)
+        return _common(fleet, path) | fleet_fields(fleet, path)
+    content = parse(SceneFile, raw, path)
     vehicles = None
     if content.vehicles is not None:
         vehicles = {
-            name: _vehicle_file(value, path) if isinstance(value, str) else value
+            name: vehicle_file(value, path) if isinstance(value, str) else value
             for name, value in content.vehicles.items()
         }
-    stated = {key: getattr(content, key) for key in SceneFile.model_fields if key != 'model'}
-    return stated | {
-        'name': path.stem,
-        'model_path': model_path,
-        'wind': with_files(content.wind, path.parent),
-        'current': with_files(content.current, path.parent),
-        'schedule': tuple(content.schedule),
+    return _common(content, path) | {
+        'model_path': model_file(content.model, path, f"{path}: key 'model'"),
+        'keyframe': content.keyframe,
         'vehicles': vehicles,
     }
 
 
-def _vehicle_file(name: str, scene_path: Path) -> VehicleFile:
-    folder = config_folder() / 'vehicles'
-    beside = scene_path.parent / name
-    path = beside if name.endswith(('.yaml', '.yml')) else folder / f'{name}.yaml'
-    if not path.is_file():
-        known = sorted(p.stem for p in folder.glob('*.yaml'))
-        raise ConfigError(
-            f"{scene_path}: vehicle file '{name}' is not known{did_you_mean(name, known)} "
-            f'vehicles: {listed(known)}'
-        )
-    return parse(VehicleFile, read_yaml(path), path)
+def _common(content: SceneKeys, path: Path) -> dict[str, Any]:
+    """Return what every scene file may state, and the scene's name."""
+    return {key: getattr(content, key) for key in SceneKeys.model_fields} | {
+        'name': path.stem,
+        'wind': with_files(content.wind, path.parent),
+        'current': with_files(content.current, path.parent),
+        'schedule': tuple(content.schedule),
+    }

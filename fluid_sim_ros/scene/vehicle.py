@@ -1,7 +1,7 @@
 """A vehicle of a compiled scene: its base body and actuators as ids."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,12 +28,16 @@ class Vehicle:
     ----------
     name
         Topic prefix and key of commands.
+    kind
+        By which mappings of autopilots go: the name of its model in a fleet, or else its own.
+    prefix
+        What its names begin with in the model: '' but in a fleet.
     body_id
         Id of the base body; its frame is ``<name>/base_link``.
     qpos_address, dof_address
         Start of the free joint in qpos and qvel, or -1 for a base without one.
     thrusters, thruster_ids
-        Actuator names in command order, and their ids, shape (n,).
+        Actuator names (without the prefix) in command order, and their ids, shape (n,).
     thrust_range
         Allowed commands [N], shape (n, 2); infinite where the model sets no limit.
     thrust_scale, effort_scale
@@ -49,6 +53,8 @@ class Vehicle:
     """
 
     name: str
+    kind: str
+    prefix: str
     body_id: int
     qpos_address: int
     dof_address: int
@@ -131,7 +137,14 @@ def free_bodies(model: mujoco.MjModel, path: Path) -> dict[str, VehicleFile]:
     return found
 
 
-def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> Vehicle:
+def resolve(
+    name: str,
+    file: VehicleFile,
+    model: mujoco.MjModel,
+    where: str,
+    prefix: str = '',
+    kind: str = '',
+) -> Vehicle:
     """
     Return a vehicle with its names as ids of the model.
 
@@ -145,6 +158,10 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
         The compiled model.
     where
         What an error begins with.
+    prefix
+        What its names begin with in the model.
+    kind
+        By which mappings of autopilots go; '': its name.
 
     Returns
     -------
@@ -157,29 +174,31 @@ def resolve(name: str, file: VehicleFile, model: mujoco.MjModel, where: str) -> 
         If the model lacks a body or an actuator that the file names; starts with ``where``.
 
     """
-    body_id = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, file.body)
+    body_id = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, prefix + file.body)
     if body_id < 0:
-        names = listed(model.body(i).name for i in range(1, model.nbody))
+        names = listed(_own(prefix, (model.body(i).name for i in range(1, model.nbody))))
         raise ConfigError(f"{where}: body '{file.body}' is not in the model; it has: {names}")
     joint = model.body_jntadr[body_id]
     free = joint >= 0 and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
     thrusters = file.thrusters
     if thrusters is None:
-        thrusters = _actuators(model, body_id, mujoco.mjtTrn.mjTRN_SITE)
+        thrusters = _own(prefix, _actuators(model, body_id, mujoco.mjtTrn.mjTRN_SITE))
     joints = file.joints
     if joints is None:
-        joints = _actuators(model, body_id, mujoco.mjtTrn.mjTRN_JOINT)
-    thruster_ids = _actuator_ids(model, thrusters, where)
+        joints = _own(prefix, _actuators(model, body_id, mujoco.mjtTrn.mjTRN_JOINT))
+    thruster_ids = _actuator_ids(model, thrusters, where, prefix)
     for actuator, identity in zip(thrusters, thruster_ids, strict=True):
         if is_reaction_torque(model, int(identity)):
             raise ConfigError(
                 f"{where}: thruster '{actuator}' is the reaction torque of a fluid_sim.thruster, "
                 'which takes no command; name the actuator of its thrust'
             )
-    joint_ids = _actuator_ids(model, joints, where)
+    joint_ids = _actuator_ids(model, joints, where, prefix)
     thrust_scale, effort_scale = newton_scales(model, thruster_ids)
     return Vehicle(
         name=name,
+        kind=kind or name,
+        prefix=prefix,
         body_id=int(body_id),
         qpos_address=int(model.jnt_qposadr[joint]) if free else -1,
         dof_address=int(model.jnt_dofadr[joint]) if free else -1,
@@ -238,11 +257,19 @@ def _is_below(model: mujoco.MjModel, body: int, root: int) -> bool:
     return bool(body == root)
 
 
-def _actuator_ids(model: mujoco.MjModel, names: Sequence[str], where: str) -> NDArray[np.int64]:
-    ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, name) for name in names]
+def _own(prefix: str, names: Iterable[str]) -> list[str]:
+    """Return names of a vehicle as its own model has them."""
+    return [name.removeprefix(prefix) for name in names if name.startswith(prefix)]
+
+
+def _actuator_ids(
+    model: mujoco.MjModel, names: Sequence[str], where: str, prefix: str
+) -> NDArray[np.int64]:
+    actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
+    ids = [mujoco.mj_name2id(model, actuator, prefix + name) for name in names]
     for name, identity in zip(names, ids, strict=True):
         if identity < 0:
-            has = listed(model.actuator(i).name for i in range(model.nu))
+            has = listed(_own(prefix, (model.actuator(i).name for i in range(model.nu))))
             raise ConfigError(f"{where}: actuator '{name}' is not in the model; it has: {has}")
     if len(set(ids)) != len(ids):
         raise ConfigError(f'{where}: an actuator stands twice in: {listed(names)}')

@@ -28,6 +28,7 @@ LIMITS = {
     'yaml_depth': Limit(40, 'levels of a YAML file'),
     'yaml_values': Limit(1_000_000, 'values of a YAML file, aliases written out'),
     'scene_events': Limit(100_000, 'events of a scene, or pending winds and currents'),
+    'fleet_vehicles': Limit(1000, 'vehicles of a scene'),
     'csv_bytes': Limit(64 << 20, 'size of a CSV file [bytes]'),
     'csv_rows': Limit(500_000, 'rows of a CSV file'),
     'grid_bytes': Limit(1 << 30, 'numbers of a grid of wind or current [bytes]'),

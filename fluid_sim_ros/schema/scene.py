@@ -76,22 +76,31 @@ class Gait(Strict):
     rate: Positive = 100.0
 
 
-class SceneFile(Strict):
-    """One file of config/scenes."""
+class SceneKeys(Strict):
+    """What every file of config/scenes may say, whatever its vehicles are."""
 
-    model: str
     description: str = ''
     medium: Literal['air', 'water'] | None = None
-    vehicles: dict[Name, str | VehicleFile] | None = None
     timestep: Positive | None = None
     integrator: Integrator | None = None
     fluid: Fluid | None = None
     advised: Advised | None = None
     duration: Positive = 10.0
-    keyframe: str | None = None
     home: Home = Home()
     waves: Waves | None = None
     wind: Wind = []
     current: Current = []
     schedule: list[ScheduledEvent] = []
     gait: dict[Name, Gait] = {}
+
+
+class ModelKeys(Strict):
+    """What a file of config/scenes says of its one model."""
+
+    model: str
+    vehicles: dict[Name, str | VehicleFile] | None = None
+    keyframe: str | None = None
+
+
+class SceneFile(SceneKeys, ModelKeys):
+    """One file of config/scenes that names a model; ``schema.fleet`` has the other kind."""

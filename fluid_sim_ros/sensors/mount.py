@@ -84,10 +84,11 @@ class Mount:
         if site is None:
             return cls(np.zeros(3), None, np.array([1.0, 0.0, 0.0, 0.0]))
         model, body = carrier.simulation.model, carrier.vehicle.body_id
-        identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site)
+        prefix = carrier.vehicle.prefix
+        identity = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, prefix + site)
         if identity < 0 or model.site_bodyid[identity] != body:
             sites = [model.site(i) for i in range(model.nsite) if model.site_bodyid[i] == body]
-            has = listed(s.name for s in sites if s.name)
+            has = listed(s.name.removeprefix(prefix) for s in sites if s.name)
             raise ConfigError(f"{where}: site '{site}' is not on the base body; it has: {has}")
         rotation = np.empty(9)
         mujoco.mju_quat2Mat(rotation, model.site_quat[identity])

@@ -218,7 +218,7 @@ class Simulation:
             If the model has no such keyframe.
 
         """
-        self._engine.reset(self.scene.keyframe if keyframe is None else keyframe)
+        self._engine.reset(self.scene.first_keyframe if keyframe is None else keyframe)
         self._clock.restart()
         self.model.opt.timestep = self.timestep
         self._streams.reset()

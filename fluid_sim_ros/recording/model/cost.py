@@ -7,29 +7,35 @@ from fluid_sim_ros.recording.model.mjcf_text import Element, parse_mjcf
 from fluid_sim_ros.schema.limits import check_limit
 
 
-def check_elements(model: Gathered) -> None:
+def check_elements(*models: Gathered) -> None:
     """
-    Refuse a model of a few lines that stands for more elements than ``model_elements``.
+    Refuse models of a few lines that stand for more elements than ``model_elements``.
 
     Parameters
     ----------
-    model
-        Gathered; attached models count as often as they are attached.
+    *models
+        Gathered, of one scene together; attached models count as often as they are attached.
 
     Raises
     ------
     LimitError
-        If it does.
+        If they do.
 
     """
+    known: dict[int, int] = {}
+    for model in models:
+        if id(model) not in known:
+            known[id(model)] = _elements_of(model)
+    check_limit(
+        'model_elements', sum(known[id(model)] for model in models), 'elements of the model'
+    )
+
+
+def _elements_of(model: Gathered) -> int:
     counts: dict[str, int] = {}
     for name in model.attached.values():  # a model stands behind those that it attaches
         counts[name] = _elements(parse_mjcf(model.assets[name]), counts)
-    check_limit(
-        'model_elements',
-        _elements(parse_mjcf(model.text.encode()), counts),
-        'elements of the model',
-    )
+    return _elements(parse_mjcf(model.text.encode()), counts)
 
 
 def _elements(root: Element, attached: dict[str, int]) -> int:

@@ -63,6 +63,33 @@ def model_of_disk(
     return model, files
 
 
+def files_of(
+    path: Path, mjcf: str, assets: Mapping[str, bytes], allowed: Sequence[Path]
+) -> tuple[str, dict[str, bytes]]:
+    """
+    Return a model and the files that it names, by paths as a log has them.
+
+    Parameters
+    ----------
+    path
+        MJCF or URDF file.
+    mjcf, assets
+        The model as text in place of the file, or '', and its files where it came out of a log.
+    allowed
+        As for ``model_of_disk``.
+
+    Raises
+    ------
+    ConfigError
+        As ``model_of_disk``.
+
+    """
+    if assets:  # it came out of a log
+        name = f'{path.stem}.xml'
+        return name, {name: mjcf.encode(), **assets}
+    return model_of_disk(path, allowed, mjcf)
+
+
 class _DiskFiles:
     """Reads regular files inside some folders."""
 

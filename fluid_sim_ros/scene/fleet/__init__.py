@@ -1,0 +1,1 @@
+"""Scenes of several vehicles, each of a model of its own: read, composed and checked."""

@@ -1,0 +1,45 @@
+"""Reads a model as a spec that can be changed before it is compiled."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import mujoco
+
+from fluid_sim_ros.errors import ModelError
+from fluid_sim_ros.plugins.attached import crashing_replicate, dropped_plugin
+
+
+def read_spec(path: Path, mjcf: str, assets: Mapping[str, bytes]) -> mujoco.MjSpec:
+    """
+    Return a model as it is written.
+
+    Parameters
+    ----------
+    path
+        Of its file.
+    mjcf, assets
+        Its text in place of the file, or '', and the content of the files that the text names.
+
+    Raises
+    ------
+    ModelError
+        For what MuJoCo cannot read, or would crash on: one line that names the file.
+
+    """
+    text = mjcf
+    if not mjcf and path.is_file():
+        text = path.read_text(encoding='utf-8', errors='replace')
+    if crash := crashing_replicate(text):
+        raise ModelError(f'{path}: {crash}')
+    try:
+        if mjcf:
+            # some are read with the text (models, flexes), the others when it is compiled
+            files = dict(assets)
+            spec = mujoco.MjSpec.from_string(mjcf, files, files)
+        else:
+            spec = mujoco.MjSpec.from_file(str(path))
+    except ValueError as error:
+        raise ModelError(f'{path}: {" ".join(str(error).split())}') from None
+    if lost := dropped_plugin(spec):
+        raise ModelError(f'{path}: {lost}')
+    return spec
