@@ -1,15 +1,19 @@
 """The options of ``fluid_sim run`` and ``fluid_sim doctor`` that have to do with autopilots."""
 
 import argparse
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli.parser import above, at_least
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, listed
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from fluid_sim_ros.cli.flight import AutopilotRun
+    from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
+    from fluid_sim_ros.scene import Scene
 
 #: What the doctor flies while it looks, and for how long [s].
 _SCENE, _SECONDS = 'x500_ground', 10.0
@@ -19,7 +23,7 @@ _OPTIONS = ('vehicle', 'mapping', 'instance', 'port', 'address', 'timeout', 'on_
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """
-    Add what ``chosen_run`` reads.
+    Add what ``chosen_runs`` reads.
 
     Parameters
     ----------
@@ -29,11 +33,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """
     group = parser.add_argument_group('autopilot')
     group.add_argument(
-        '--autopilot', choices=('px4', 'ardupilot'), help='fly with it, in lockstep'
-    )
+        '--autopilot', choices=('px4', 'ardupilot', 'none'),
+        help='fly with it, in lockstep; none: also without those of the scene file',
+    )  # fmt: skip
     group.add_argument(
-        '--exec', metavar='COMMAND', dest='program',
-        help='start its program too, with the arguments that it needs besides',
+        '--exec', metavar='COMMAND', dest='programs', action='append', default=[],
+        help='start its program too, with the arguments that it needs besides; VEHICLE=COMMAND '
+        'or PROTOCOL=COMMAND, repeated, where the scene file states several',
     )  # fmt: skip
     group.add_argument(
         '--param', metavar='NAME=VALUE', dest='parameters', action='append', default=[],
@@ -88,44 +94,116 @@ def add_doctor_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
-def chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun | None':
+def chosen_runs(arguments: argparse.Namespace, scene: 'Scene') -> 'list[AutopilotRun]':
     """
-    Return who flies by the options of ``add_options``, or None.
+    Return who flies: by the options of ``add_options``, or else as the scene file says.
 
     Parameters
     ----------
     arguments
         Parsed options.
+    scene
+        What is flown.
+
+    Returns
+    -------
+    list
+        One for each vehicle that has an autopilot.
 
     Raises
     ------
     ConfigError
-        If an option needs ``--autopilot`` and it is not given.
+        If an option needs ``--autopilot`` and it is not given, or does not fit the scene.
 
     """
-    chosen = {
-        name: getattr(arguments, name) for name in _OPTIONS if getattr(arguments, name) is not None
-    }
-    if arguments.parameters and not arguments.program:
+    if arguments.parameters and not arguments.programs:
         raise ConfigError('--param needs --exec: only a program that is started gets parameters')
-    if not chosen.get('timeout', 1.0) > 0:
-        raise ConfigError(f'--timeout {chosen["timeout"]:g}: must be above 0')
-    if arguments.autopilot is None:
-        given = [*(['exec'] if arguments.program else []), *chosen]
+    if arguments.autopilot not in (None, 'none'):
+        return [_chosen_run(arguments)]
+    # heavy: only when it is needed
+    from fluid_sim_ros.loop.autopilot_fleet import autopilots_of
+
+    chosen = _given(arguments)
+    stated = [] if arguments.autopilot == 'none' else autopilots_of(scene)
+    if not stated:
+        given = [*(['exec'] if arguments.programs else []), *chosen]
+        given += ['param'] if arguments.parameters else []
         given += ['home'] if arguments.home else []
         if given:
             option = given[0].replace('_', '-')
             raise ConfigError(f'--{option} needs --autopilot')
-        return None
+        return []
+    from fluid_sim_ros.cli.flight import AutopilotRun
+
+    for option in ('vehicle', 'mapping', 'instance', 'port'):
+        if option in chosen:
+            raise ConfigError(
+                f'--{option} needs --autopilot: the scene file states that of each vehicle'
+            )
+    if arguments.parameters:
+        raise ConfigError(
+            "--param needs --autopilot: state them as 'parameters' of a vehicle's autopilot"
+        )
+    programs = _programs(arguments.programs, [pilot.options for pilot in stated])
+    return [
+        AutopilotRun(
+            replace(pilot.options, program=bool(program), **chosen), program, pilot.parameters,
+            arguments.home,
+        )
+        for pilot, program in zip(stated, programs, strict=True)
+    ]  # fmt: skip
+
+
+def _given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return those of the bridge's options that were given."""
+    chosen = {
+        name: getattr(arguments, name) for name in _OPTIONS if getattr(arguments, name) is not None
+    }
+    if not chosen.get('timeout', 1.0) > 0:
+        raise ConfigError(f'--timeout {chosen["timeout"]:g}: must be above 0')
+    return chosen
+
+
+def _programs(given: list[str], options: 'Sequence[AutopilotOptions]') -> list[str]:
+    """Return the command that starts the program of each autopilot, '' for none."""
+    commands: dict[str, str] = {}
+    names = [name for each in options for name in (each.vehicle, each.protocol)]
+    for word in given:
+        name, _, command = word.partition('=')
+        if not command or name not in names:
+            name, command = '', word
+        if name in commands:
+            raise ConfigError(
+                f'--exec {word}: is the second for the same; write VEHICLE=COMMAND, with one of: '
+                f'{listed(dict.fromkeys(names))}'
+            )
+        commands[name] = command
+    found = [
+        commands.get(each.vehicle) or commands.get(each.protocol) or commands.get('', '')
+        for each in options
+    ]
+    return [
+        command.replace('{vehicle}', each.vehicle).replace('{instance}', str(each.instance))
+        for command, each in zip(found, options, strict=True)
+    ]
+
+
+def _chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun':
+    """Return who flies by the options alone."""
     # heavy: only when it is needed
     from fluid_sim_ros.cli.flight import AutopilotRun
     from fluid_sim_ros.loop.autopilot_port import AutopilotOptions
     from fluid_sim_ros.mavlink.program.parameters import parse_parameters
 
-    options = AutopilotOptions(arguments.autopilot, program=bool(arguments.program), **chosen)
-    return AutopilotRun(
-        options, arguments.program or '', parse_parameters(arguments.parameters), arguments.home
-    )
+    chosen = _given(arguments)
+    if len(arguments.programs) > 1:
+        raise ConfigError(
+            '--exec is given twice: with --autopilot there is one program; several autopilots '
+            'stand in the scene file (doc/fleets.md)'
+        )
+    program = ''.join(arguments.programs)
+    options = AutopilotOptions(arguments.autopilot, program=bool(program), **chosen)
+    return AutopilotRun(options, program, parse_parameters(arguments.parameters), arguments.home)
 
 
 def autopilot_table(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':
@@ -153,9 +231,9 @@ def autopilot_table(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, An
 
     from fluid_sim_ros.cli import flight as cli_flight
 
-    run = chosen_run(arguments)
-    if run is None:
-        raise ConfigError('the doctor looks for an autopilot with --autopilot')
+    if arguments.autopilot in (None, 'none'):
+        raise ConfigError('the doctor looks for an autopilot with --autopilot px4 or ardupilot')
+    run = _chosen_run(arguments)
     seen = cli_flight.listen_to_autopilot(run, arguments.scene or _SCENE, arguments.seconds)
     table = Table('what', 'found', title=f'fluid_sim doctor --autopilot {arguments.autopilot}')
     for name, value in seen.items():

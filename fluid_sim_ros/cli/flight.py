@@ -1,4 +1,4 @@
-"""A run without ROS that an autopilot flies: bridge, program, reports, log."""
+"""A run without ROS that autopilots fly: bridges, programs, reports, log."""
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli.home import turn_to
 from fluid_sim_ros.errors import AutopilotError
+from fluid_sim_ros.loop.autopilot_fleet import open_bridges
 from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
-from fluid_sim_ros.loop.autopilot_port import (
-    AutopilotOptions,
-    Surroundings,
-    open_bridge,
-)
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Bridge, Surroundings
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
+from fluid_sim_ros.loop.shared_lockstep import joined
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
 
@@ -56,13 +54,13 @@ class AutopilotRun:
 
 class Flight:
     """
-    Connects a runner with an autopilot.
+    Connects a runner with one autopilot, or with one for each of several vehicles.
 
     Parameters
     ----------
     simulation, clock
         What is flown, and how fast at most.
-    run
+    runs
         By whom.
     log
         Takes the commands, and begins a new segment when the vehicle is put back; or None.
@@ -72,11 +70,10 @@ class Flight:
     Attributes
     ----------
     fault
-        Why the autopilot ended the run, or empty.
-    exit_code
-        How the program that was started ended by itself; None: it did not.
-    result
-        What the bridge counted, and both of the above, ready for JSON; empty before the end.
+        Why an autopilot ended the run, or empty.
+    results
+        By vehicle what its bridge counted, the fault, and how a program that was started ended by
+        itself (``exit_code``; None: it did not), ready for JSON; empty before the end.
 
     """
 
@@ -84,20 +81,22 @@ class Flight:
         self,
         simulation: Simulation,
         clock: Pacing,
-        run: AutopilotRun,
+        runs: Sequence[AutopilotRun],
         log: 'RecordingSink | None',
         say: Callable[[str], None],
     ) -> None:
-        self._simulation, self._run, self._log, self._say = simulation, run, log, say
+        self._simulation, self._runs, self._log, self._say = simulation, runs, log, say
         self._said_at: dict[str, float] = {}
         self._runner: Runner | None = None
         self.fault = ''
-        self.exit_code: int | None = None
-        self.result: dict[str, Any] = {}
+        self._exit_codes: dict[str, int] = {}
+        self.results: dict[str, dict[str, Any]] = {}
         surroundings = Surroundings(self._report, say, self._reset, log)
-        self.bridge = open_bridge(simulation, run.options, surroundings)
-        self.pacing = AutopilotPacing(self.bridge, clock)
-        say(self.bridge.status().message)
+        options = [run.options for run in runs]
+        self.bridges = open_bridges(simulation, options, surroundings)
+        self.pacing = AutopilotPacing(joined(self.bridges, simulation, log), clock)
+        for bridge in self.bridges:
+            say(self._of(bridge, bridge.status().message))
 
     @contextmanager
     def of(self, runner: Runner) -> Iterator[None]:
@@ -124,49 +123,61 @@ class Flight:
         """
         self._runner = runner
         with ExitStack() as stack:
-            stack.callback(self.bridge.close)
-            if self._run.program:
-                self._start(self._run, runner, stack)
+            for bridge in self.bridges:
+                stack.callback(bridge.close)
+            for run, bridge in zip(self._runs, self.bridges, strict=True):
+                if run.program:
+                    self._start(run, bridge, runner, stack)
             try:
                 yield
             except AutopilotError as error:
                 self.fault = str(error)
-            self.result = self._result()
-        self._say(counts_line(self.result))
+            self.results = {bridge.vehicle: self._result(bridge) for bridge in self.bridges}
+        for line in counts_lines(self.results):
+            self._say(line)
 
-    def _start(self, run: AutopilotRun, runner: Runner, stack: ExitStack) -> None:
+    def _of(self, bridge: Bridge, line: str) -> str:
+        """Return a line that names the vehicle where there are several autopilots."""
+        return line if len(self.bridges) == 1 else f'{bridge.vehicle}: {line}'
+
+    def _start(self, run: AutopilotRun, bridge: Bridge, runner: Runner, stack: ExitStack) -> None:
         from fluid_sim_ros.mavlink.mapping import load_mapping
         from fluid_sim_ros.mavlink.program.command_line import HEADING_EAST
         from fluid_sim_ros.mavlink.program.parameters import needed_parameters, parameters_line
         from fluid_sim_ros.mavlink.program.program import Program
 
         options, home = run.options, self._simulation.scene.home
-        file, _ = load_mapping(options.protocol, self.bridge.vehicle, options.mapping)
+        kind = self._simulation.vehicle(bridge.vehicle).kind
+        file, _ = load_mapping(options.protocol, kind, options.mapping)
         parameters = needed_parameters(file, run.parameters)
         if parameters:
-            self._say(f'parameters given to the program: {parameters_line(parameters)}')
+            given = f'parameters given to the program: {parameters_line(parameters)}'
+            self._say(self._of(bridge, given))
         heading = run.home[3] if run.home else HEADING_EAST
         place = (home.latitude, home.longitude, home.altitude, heading)
-        program = Program(run.program, options, file, place, parameters, self._say)
+        program = Program(
+            run.program, options, file, place, parameters,
+            lambda line: self._say(self._of(bridge, line)),
+        )  # fmt: skip
         stack.callback(program.close)
         before = runner.housekeeping
 
         def look_after() -> None:
             before()
-            self._end_with(program)
+            self._end_with(program, bridge)
 
         runner.housekeeping = look_after
 
     def _reset(self) -> None:
         self._simulation.reset()
-        if self._run.home:
-            turn_to(self._simulation, self._run.home[3])
+        if home := self._runs[0].home:
+            turn_to(self._simulation, home[3])
         if self._log is not None:
             self._log.next_segment()
         if self._runner is not None:
             self._runner.restart()
 
-    def _end_with(self, program: 'Program') -> None:
+    def _end_with(self, program: 'Program', bridge: Bridge) -> None:
         """End the run with its program; only one that has flown may end in order."""
         code = program.exit_code
         if code is None or self._runner is None:
@@ -174,13 +185,14 @@ class Flight:
         from fluid_sim_ros.mavlink.program.program import ending
 
         program.wait_for_output()
-        self.exit_code = code
-        answered = self.bridge.status().values['answered']
+        self._exit_codes[bridge.vehicle] = code
+        answered = bridge.status().values['answered']
         line = f'the autopilot {ending(code)}'
         if answered and code == 0:
-            self._say(line)
+            self._say(self._of(bridge, line))
         else:
-            self.fault = line if answered else f'{line} before it answered'
+            line = line if answered else f'{line} before it answered'
+            self.fault = self.fault or self._of(bridge, line)
         self._runner.stop()
 
     def _report(self, key: str, line: str) -> None:
@@ -189,12 +201,27 @@ class Flight:
             self._said_at[key] = now
             self._say(line)
 
-    def _result(self) -> dict[str, Any]:
-        status = self.bridge.status()
+    def _result(self, bridge: Bridge) -> dict[str, Any]:
+        status = bridge.status()
         return {
-            'vehicle': self.bridge.vehicle, 'state': f'{status.level}: {status.message}',
-            **status.values, 'exit_code': self.exit_code, 'fault': self.fault,
+            'vehicle': bridge.vehicle, 'state': f'{status.level}: {status.message}',
+            **status.values, 'exit_code': self._exit_codes.get(bridge.vehicle),
+            'fault': self.fault,
         }  # fmt: skip
+
+
+def counts_lines(results: Mapping[str, dict[str, Any]]) -> list[str]:
+    """
+    Return how the exchanges with all autopilots went, a line for each.
+
+    Parameters
+    ----------
+    results
+        As of ``Flight``; where there are several, each line begins with the vehicle.
+
+    """
+    lines = {name: counts_line(result) for name, result in results.items()}
+    return [line if len(lines) == 1 else f'{name}: {line}' for name, line in lines.items()]
 
 
 def counts_line(result: dict[str, Any]) -> str:
@@ -204,7 +231,7 @@ def counts_line(result: dict[str, Any]) -> str:
     Parameters
     ----------
     result
-        As of ``Flight``.
+        Of one vehicle, as of ``Flight``.
 
     Returns
     -------
@@ -244,7 +271,7 @@ def listen_to_autopilot(run: AutopilotRun, scene: str, seconds: float) -> dict[s
     """
     lines: list[str] = []
     simulation = Simulation(scene)
-    flight = Flight(simulation, Pacing(), run, None, lines.append)
+    flight = Flight(simulation, Pacing(), [run], None, lines.append)
     end = time.monotonic() + seconds
 
     def stop_in_time() -> None:
@@ -254,9 +281,9 @@ def listen_to_autopilot(run: AutopilotRun, scene: str, seconds: float) -> dict[s
     runner = Runner(simulation, NoSource(), [], flight.pacing, housekeeping=stop_in_time)
     with flight.of(runner):
         runner.run(NEVER)
-    seen = flight.result
+    (seen,), (bridge,) = flight.results.values(), flight.bridges
     seen |= {'simulated_s': simulation.time, 'reasons': [], 'reports': lines}
     if not seen['answered']:
         seen['fault'] = seen['fault'] or f'nothing was heard within {seconds:g} s'
-        seen['reasons'] = flight.bridge.reasons()
+        seen['reasons'] = bridge.reasons()
     return seen

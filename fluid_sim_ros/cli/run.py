@@ -11,7 +11,7 @@ import mujoco
 from rich.markup import escape
 from rich.table import Table
 
-from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_line
+from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_lines
 from fluid_sim_ros.cli.home import scene_at, turn_to
 from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
 from fluid_sim_ros.cli.signals import stopped_by_signals
@@ -37,7 +37,7 @@ _LEAST_FORCE = 1e-12
 
 
 def run_scene(
-    scene: str | Path,
+    scene: str | Path | Scene,
     *,
     duration: float | None = None,
     keyframe: str | None = None,
@@ -49,7 +49,7 @@ def run_scene(
     record: str | Path | None = None,
     record_topics: Sequence[str] = ('*',),
     allow_assets_from: Sequence[Path] = (),
-    autopilot: AutopilotRun | None = None,
+    autopilot: AutopilotRun | Sequence[AutopilotRun] = (),
 ) -> dict[str, Any]:
     """
     Run a scene to its end and return what came out, ready for JSON.
@@ -57,7 +57,7 @@ def run_scene(
     Parameters
     ----------
     scene
-        Name, or path of an MJCF or scene file.
+        Name, path of an MJCF or scene file, or a scene.
     settings
         Timestep, integrator, fluid and seed; default: the scene's own.
     duration
@@ -75,7 +75,7 @@ def run_scene(
     allow_assets_from
         Folders whose files the log may hold if the model names them; see ``RecorderOptions``.
     autopilot
-        Who flies.
+        Who flies; several, each a vehicle of its own, share one lockstep and ``home``.
 
     Returns
     -------
@@ -86,7 +86,7 @@ def run_scene(
         what ended the recording before the run, such as a full disk, or empty; ``records`` are all
         its files, for a restarted autopilot begins another. ``interrupted`` is the signal that
         ended the run, or empty. ``autopilot`` holds what its bridge counted, and ``fault``, why it
-        ended the run, or empty.
+        ended the run, or empty; with several autopilots ``autopilots`` holds that by vehicle.
 
     Raises
     ------
@@ -94,17 +94,18 @@ def run_scene(
         Wrong input, or ``DivergedError``.
 
     """
+    autopilots = [autopilot] if isinstance(autopilot, AutopilotRun) else list(autopilot)
     stated = Scene.load(scene)
     if keyframe is not None:
         stated = replace(stated, keyframe=keyframe)
-    home = () if autopilot is None else autopilot.home
+    home = autopilots[0].home if autopilots else ()
     if home:
         stated = scene_at(stated, home)
     simulation = Simulation(stated, **(settings or RunSettings()).model_dump())
     if home:
         turn_to(simulation, home[3])
     seconds = duration
-    if seconds is None and autopilot is None:
+    if seconds is None and not autopilots:
         seconds = simulation.scene.duration
     if seconds is not None and not 0 < seconds < float('inf'):
         raise ConfigError(f'duration {seconds:g} s: must be finite and above 0')
@@ -119,7 +120,7 @@ def run_scene(
     pacing = Pacing()
     if realtime:
         pacing = RealTime(tick=max(1, round(SAMPLE_PERIOD / simulation.timestep)))
-    live = realtime or autopilot is not None
+    live = realtime or bool(autopilots)
     with status_line() if live else progress_bar('{task.completed:.1f} s') as progress:
         progress.add_task(simulation.scene.name, total=seconds)
         say = plain_lines(progress.console)
@@ -131,8 +132,8 @@ def run_scene(
             sinks.append(watchdogs)
             begin = time.perf_counter()
             flight = None
-            if autopilot is not None:
-                flight = Flight(simulation, pacing, autopilot, log, say)
+            if autopilots:
+                flight = Flight(simulation, pacing, autopilots, log, say)
                 pacing = flight.pacing
             if hold:
                 sinks.append(Hold(simulation, log))
@@ -152,7 +153,27 @@ def run_scene(
     result = _summary(simulation, watcher, wall) | files | {
         'remarks': remarks, 'interrupted': interruption.name
     }  # fmt: skip
-    return result if flight is None else result | {'autopilot': flight.result}
+    if flight is None:
+        return result
+    several = {'autopilots': flight.results}
+    only = {'autopilot': next(iter(flight.results.values()))}
+    return result | (several if len(flight.results) > 1 else only)
+
+
+def flown_by(result: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """
+    Return what the bridges of a run counted, by vehicle; nothing without an autopilot.
+
+    Parameters
+    ----------
+    result
+        Of ``run_scene``.
+
+    """
+    found: dict[str, dict[str, Any]] = result.get('autopilots', {})
+    if only := result.get('autopilot'):
+        found = {only['vehicle']: only}
+    return found
 
 
 def _warn(line: str, say: Callable[[str], None], log: 'RecordingSink | None') -> None:
@@ -205,8 +226,8 @@ def summary_table(result: dict[str, Any]) -> Table:
             for name, vehicle in result['vehicles'].items()
         ),
     ])  # fmt: skip
-    if 'autopilot' in result:
-        caption = f'{counts_line(result["autopilot"])}\n{caption}'
+    if flown := flown_by(result):
+        caption = '\n'.join([*map(escape, counts_lines(flown)), caption])
     ended = f', ended by {result["interrupted"]}' if result['interrupted'] else ''
     rows = [
         (

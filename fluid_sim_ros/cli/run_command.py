@@ -78,20 +78,27 @@ def add_parser(commands: Any, show: Show) -> None:
 
 
 def _run(arguments: argparse.Namespace, show: Show) -> int:
-    from fluid_sim_ros.cli.run import run_scene, summary_table
+    from fluid_sim_ros.cli.run import flown_by, run_scene, summary_table
     from fluid_sim_ros.cli.scene import advised_settings
+    from fluid_sim_ros.scene import Scene
     from fluid_sim_ros.schema.settings import RunSettings
 
     if arguments.record_topics and not arguments.record:
         raise ConfigError('--record-topics needs --record PATH')
-    if arguments.hold and arguments.autopilot:
+    scene = Scene.load(arguments.scene)
+    pilots = autopilot.chosen_runs(arguments, scene)
+    if arguments.hold and arguments.autopilot not in (None, 'none'):
         raise ConfigError('--hold and --autopilot: two cannot command at once; give one of them')
+    if arguments.hold and pilots:
+        raise ConfigError(
+            "--hold: the scene's autopilots command; --autopilot none leaves them out"
+        )
     given = {key: getattr(arguments, key) for key in RunSettings.model_fields}
     settings = RunSettings.checked('--{}', **given)
     if arguments.advised:
         settings = settings.over(advised_settings(arguments.scene))
     result = run_scene(
-        arguments.scene,
+        scene,
         duration=arguments.duration,
         keyframe=arguments.keyframe,
         settings=settings,
@@ -102,7 +109,7 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
         record=arguments.record,
         record_topics=arguments.record_topics or ['*'],
         allow_assets_from=arguments.allow_assets_from,
-        autopilot=autopilot.chosen_run(arguments),
+        autopilot=pilots,
     )
     show(arguments.json, summary_table(result), result)
     if arguments.record and arguments.json != '-':
@@ -110,11 +117,12 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
             console().print(f'Log: {path}', soft_wrap=True, markup=False)
     if result.get('record_fault'):  # the flight went on without
         raise ConfigError(result['record_fault'])
-    flown = result.get('autopilot')
-    if flown is None:
+    flown = flown_by(result)
+    if not flown:
         ended = result['interrupted']
         return 128 + signal.Signals[ended] if ended else 0
-    if flown['fault']:  # with an autopilot an interruption is how a run ends
-        sys.stderr.write(f'fluid_sim: {flown["fault"]}\n')
+    # with an autopilot an interruption is how a run ends
+    for fault in dict.fromkeys(each['fault'] for each in flown.values() if each['fault']):
+        sys.stderr.write(f'fluid_sim: {fault}\n')
         return FAILED
     return 0

@@ -1,6 +1,6 @@
 """An autopilot as a pacing: simulated time goes on when it has answered."""
 
-from fluid_sim_ros.loop.autopilot_port import Bridge
+from fluid_sim_ros.loop.autopilot_port import Exchange
 from fluid_sim_ros.loop.pacing import Pacing, Source
 from fluid_sim_ros.simulation import Simulation
 
@@ -12,13 +12,13 @@ class AutopilotPacing(Pacing):
     Parameters
     ----------
     bridge
-        The autopilot.
+        The autopilot, or several as ``SharedLockstep``.
     clock
         ``Pacing`` (free) or ``RealTime``.
 
     """
 
-    def __init__(self, bridge: Bridge, clock: Pacing) -> None:
+    def __init__(self, bridge: Exchange, clock: Pacing) -> None:
         self.bridge = bridge
         self.clock = clock
 

@@ -9,7 +9,7 @@ wanted.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, Literal, Protocol
+from typing import Any, ClassVar, Literal, Protocol
 
 from fluid_sim_ros.errors import needed_for
 from fluid_sim_ros.simulation import Simulation
@@ -81,10 +81,8 @@ class BridgeStatus:
     values: Mapping[str, Any] = field(default_factory=dict)
 
 
-class Bridge(Protocol):
-    """An autopilot at the other end of a socket; every method runs in the stepping thread."""
-
-    vehicle: str
+class Exchange(Protocol):
+    """What simulated time waits for at boundaries; every method runs in the stepping thread."""
 
     def begin(self, simulation: Simulation) -> None:
         """
@@ -121,6 +119,48 @@ class Bridge(Protocol):
         -------
         bool
             False: no answer yet, do not step.
+
+        """
+
+
+class Bridge(Exchange, Protocol):
+    """
+    An autopilot at the other end of a socket.
+
+    Attributes
+    ----------
+    vehicle
+        Name of the vehicle that it flies.
+    leads
+        It says how long the steps are, unless it has joined others.
+
+    """
+
+    vehicle: str
+    leads: ClassVar[bool]
+
+    def join(self) -> None:
+        """Be one of several: whoever put them together sets the timestep."""
+
+    def offer(self, simulation: Simulation) -> None:
+        """
+        Send the state that is due at this boundary, and do not wait for what it leads to.
+
+        Parameters
+        ----------
+        simulation
+            What is flown.
+
+        """
+
+    def next_ns(self, simulation: Simulation) -> int:
+        """
+        Return the simulated time of the next exchange [ns].
+
+        Parameters
+        ----------
+        simulation
+            What is flown, at a boundary where ``meet`` has returned True.
 
         """
 

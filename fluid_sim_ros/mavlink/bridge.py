@@ -52,7 +52,7 @@ def open_bridge(
             raise ConfigError(f'autopilot: name the vehicle that it flies, one of: {names}')
         options = replace(options, vehicle=next(iter(simulation.vehicles)))
     vehicle = simulation.vehicle(options.vehicle)
-    file, path = load_mapping(options.protocol, vehicle.name, options.mapping)
+    file, path = load_mapping(options.protocol, vehicle.kind, options.mapping)
     actuators = ActuatorMap(file, path, vehicle)
     if not options.program and (parameters := needed_parameters(file, {})):
         line = f'{path.stem}: the autopilot needs {parameters_line(parameters)}'

@@ -50,6 +50,7 @@ class AutopilotLink(ABC):
     protocol: ClassVar[str]
     #: Channels of a radio control that it takes.
     channels: ClassVar[int] = CHANNELS
+    leads: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -106,6 +107,34 @@ class AutopilotLink(ABC):
         -------
         bool
             Whether the simulation may go on; False where no answer has come yet.
+
+        """
+
+    @abstractmethod
+    def join(self) -> None:
+        """Be one of several; see ``autopilot_port.Bridge``."""
+
+    @abstractmethod
+    def offer(self, simulation: Simulation) -> None:
+        """
+        Send the state that is due at this boundary, without waiting.
+
+        Parameters
+        ----------
+        simulation
+            The one that the bridge was made for, at a step boundary.
+
+        """
+
+    @abstractmethod
+    def next_ns(self, simulation: Simulation) -> int:
+        """
+        Return the simulated time of the next exchange [ns].
+
+        Parameters
+        ----------
+        simulation
+            The one that the bridge was made for, at a step boundary.
 
         """
 

@@ -1,10 +1,13 @@
-"""Connects a node with the autopilot that flies one of its vehicles."""
+"""Connects a node with the autopilots that fly its vehicles."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Bridge, Surroundings, open_bridge
+from fluid_sim_ros.loop.autopilot_fleet import autopilots_of, open_bridges
+from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Bridge, Exchange, Surroundings
+from fluid_sim_ros.loop.shared_lockstep import joined
 from fluid_sim_ros.messages.commands import sticks_topic
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.simulation import Simulation
@@ -75,25 +78,48 @@ def check_pacing(settings: Mapping[str, Any]) -> None:
         )
 
 
-def start_autopilot(
+@dataclass(frozen=True)
+class Autopilots:
+    """
+    The autopilots of a node.
+
+    Attributes
+    ----------
+    bridges
+        One for each vehicle that has one.
+    exchange
+        What simulated time waits for; None without an autopilot.
+
+    """
+
+    bridges: Sequence[Bridge] = ()
+    exchange: Exchange | None = None
+
+    def close(self) -> None:
+        """Close every socket."""
+        for bridge in self.bridges:
+            bridge.close()
+
+
+def start_autopilots(
     simulation: Simulation,
     settings: Mapping[str, Any],
     inputs: Inputs,
     report: Callable[[str, str], None],
     inform: Callable[[str], None],
     reset: Callable[[], object],
-) -> Bridge | None:
+) -> Autopilots:
     """
-    Listen for the autopilot that the parameters ask for.
+    Listen for the autopilots that the parameters ask for: one, or those of the scene file.
 
     Parameters
     ----------
     simulation
-        Whose vehicle it flies.
+        Whose vehicles they fly.
     settings
         Values of the node's parameters.
     inputs
-        The node's command topics; an autopilot that takes sticks adds one.
+        The node's command topics; each autopilot adds one for sticks.
     report
         Takes (key, line): a fault to log.
     inform
@@ -103,8 +129,8 @@ def start_autopilot(
 
     Returns
     -------
-    Bridge or None
-        The bridge; None where the parameters ask for no autopilot.
+    Autopilots
+        Listening; none where neither parameters nor scene ask for one.
 
     Raises
     ------
@@ -113,21 +139,28 @@ def start_autopilot(
         the extra is missing.
 
     """
-    if settings['autopilot.protocol'] == 'none':
-        return None
+    protocol = settings['autopilot.protocol']
+    common = {
+        name: settings[f'autopilot.{name}']
+        for name in ('address', 'timeout', 'on_timeout', 'sticks_timeout', 'earth')
+    }
+    if protocol == 'none':
+        return Autopilots()
+    if protocol == 'scene':
+        options = [pilot.options for pilot in autopilots_of(simulation.scene, **common)]
+        if not options:
+            return Autopilots()
+    else:
+        own = {
+            name: settings[f'autopilot.{name}']
+            for name in ('vehicle', 'mapping', 'instance', 'port')
+        }
+        options = [AutopilotOptions(protocol, **own, **common)]
     check_pacing(settings)
     if settings['thrust.unit'] != 'newton':
         raise ConfigError("parameter 'thrust.unit': with an autopilot it must be newton")
-    options = AutopilotOptions(
-        **{
-            name: settings[f'autopilot.{name}']
-            for name in (
-                'protocol', 'vehicle', 'mapping', 'instance', 'port', 'address', 'timeout',
-                'on_timeout', 'sticks_timeout', 'earth',
-            )
-        }
-    )  # fmt: skip
     log = CommandTap(inputs) if settings['record.path'] else None
-    bridge = open_bridge(simulation, options, Surroundings(report, inform, reset, log))
-    inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
-    return bridge
+    bridges = open_bridges(simulation, options, Surroundings(report, inform, reset, log))
+    for bridge in bridges:
+        inputs.add(sticks_topic(bridge.vehicle, bridge.set_sticks))
+    return Autopilots(bridges, joined(bridges, simulation, log))

@@ -6,7 +6,7 @@ from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, FluidSimError
 from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
-from fluid_sim_ros.loop.autopilot_port import Bridge
+from fluid_sim_ros.loop.autopilot_port import Exchange
 from fluid_sim_ros.loop.pacing import Lockstep, Pacing, RealTime
 from fluid_sim_ros.ros.autopilot import check_pacing
 from fluid_sim_ros.ros.inputs import Inputs
@@ -30,8 +30,8 @@ class Pacings:
         What is paced, waited for, and published again while it waits.
     settings
         Values of the node's parameters; ``pacing`` and ``realtime.factor`` may change.
-    bridge
-        The autopilot, or None.
+    exchange
+        What simulated time waits for with autopilots, or None.
     report
         Takes (key, line): a fault to log.
 
@@ -43,12 +43,12 @@ class Pacings:
         settings: Mapping[str, Any],
         inputs: Inputs,
         outputs: Outputs,
-        bridge: Bridge | None,
+        exchange: Exchange | None,
         report: Callable[[str, str], None],
     ) -> None:
         self._simulation, self._settings = simulation, settings
         self._inputs, self._outputs = inputs, outputs
-        self._bridge, self._report = bridge, report
+        self._exchange, self._report = exchange, report
 
     def chosen(self) -> Pacing:
         """
@@ -65,9 +65,9 @@ class Pacings:
             If the parameters do not go with each other.
 
         """
-        if self._bridge is not None:
+        if self._exchange is not None:
             check_pacing(self._settings)
-            return AutopilotPacing(self._bridge, self._clock())
+            return AutopilotPacing(self._exchange, self._clock())
         return self._lockstep() if self._settings['pacing'] == 'lockstep' else self._clock()
 
     def _clock(self) -> Pacing:

@@ -9,7 +9,7 @@ from rclpy.node import Node
 from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError
 from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.loop.runner import Runner
-from fluid_sim_ros.ros.autopilot import start_autopilot
+from fluid_sim_ros.ros.autopilot import start_autopilots
 from fluid_sim_ros.ros.health.diagnostics import Diagnostics
 from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
@@ -79,12 +79,17 @@ class Session:
             node, self.simulation, self.inputs, self.outputs, graph, notes
         )
         self.simulation.enable_wind(settings['enable_wind'])
-        self._bridge = start_autopilot(
+        self._autopilots = start_autopilots(
             self.simulation, settings, self.inputs, report, node.get_logger().info, self.reset
         )
-        self._diagnostics.bridge = self._bridge
+        self._diagnostics.bridges = self._autopilots.bridges
         self._pacings = Pacings(
-            self.simulation, settings, self.inputs, self.outputs, self._bridge, report
+            self.simulation,
+            settings,
+            self.inputs,
+            self.outputs,
+            self._autopilots.exchange,
+            report,
         )
         self.runner = Runner(
             self.simulation, self.inputs, [self.outputs, self._diagnostics.watchdogs],
@@ -96,7 +101,7 @@ class Session:
                 node, self.simulation, settings, self.inputs, self.outputs, self._diagnostics
             )
         except FluidSimError:
-            self._close_bridge()
+            self._autopilots.close()
             raise
         self._graph = graph
         graph.connections.watch(entry.subscription for entry in self.inputs.inputs)
@@ -106,7 +111,7 @@ class Session:
     def destroy(self) -> None:
         """End the log and remove every topic from the node."""
         self._graph.connections.forget()
-        self._close_bridge()
+        self._autopilots.close()
         if self.tap is not None:
             self.tap.close()
             if self.tap.fault:
@@ -115,10 +120,6 @@ class Session:
         self.outputs.destroy()
         self._diagnostics.destroy()
         self.simulation.close()
-
-    def _close_bridge(self) -> None:
-        if self._bridge is not None:
-            self._bridge.close()
 
     # ---- the loop --------------------------------------------------------------------------
 

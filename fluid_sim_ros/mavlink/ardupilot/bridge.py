@@ -7,12 +7,12 @@ without packets simulated time stands still.
 """
 
 import time
-from fractions import Fraction
 from typing import Any
 
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.ardupilot.frame_check import FrameCheck
+from fluid_sim_ros.mavlink.ardupilot.frames import Frames, frame_us
 from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     LONGEST_PACKET,
     RC_CHANNELS,
@@ -28,7 +28,6 @@ from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.silence import REPORT_AFTER, Silence
 from fluid_sim_ros.simulation import Simulation
-from fluid_sim_ros.step_clock import exact
 
 #: Port of the first instance, and from one instance to the next.
 FIRST_PORT, PORT_STEP = 9002, 10
@@ -57,6 +56,7 @@ class ArduPilotBridge(AutopilotLink):
 
     name, protocol = 'ArduPilot', 'ardupilot'
     channels = RC_CHANNELS
+    leads = True
 
     def __init__(
         self,
@@ -70,7 +70,7 @@ class ArduPilotBridge(AutopilotLink):
         limits = simulation.vehicle(options.vehicle).thrust_range[:, 1].tolist()
         self._battery = Battery(file.battery, limits) if file.battery else None
         self._state = StateReader(simulation, options.vehicle, self._sticks, self._battery)
-        self._longest = exact(simulation.timestep)
+        self._frames = Frames(simulation.timestep, surroundings.log)
         port = options.port or FIRST_PORT + PORT_STEP * options.instance
         self._port = UdpPort(options.address, port, LONGEST_PACKET)
         self.port = self._port.port
@@ -81,15 +81,12 @@ class ArduPilotBridge(AutopilotLink):
         self._heard_at = self._silent_at = 0.0
         self._silence = Silence(self.name, options, surroundings, self.counters)
         self._count = -1
-        self._rate = 0
-        self._steps = 0  # of a frame
-        self._frame_end = 0  # step at which the present frame ends
         self._owed = False  # the autopilot waits for the state at the frame's end
         self._later: Datagram | None = None  # came while the repeated ones were looked through
         self._waiting: ServoPacket | None = None  # first packet of a process that has restarted
         self._reply = b''
         self._sent_ns = 0
-        self._frames = 0  # that this process has been told the end of
+        self._told = 0  # frames that this process has been told the end of
         self._offset_ns = 0  # from simulated time to that of the autopilot
 
     # ---- the pacing's side -----------------------------------------------------------------
@@ -99,18 +96,31 @@ class ArduPilotBridge(AutopilotLink):
         self._heard_at = time.monotonic()
         now_ns = simulation.time_ns
         if now_ns + self._offset_ns < self._sent_ns:
-            frame_ns = 1000 * frame_us(self._rate) if self._owed else 0
+            frame_ns = 1000 * frame_us(self._frames.rate) if self._owed else 0
             self._offset_ns = self._sent_ns + frame_ns - now_ns
         if simulation.step_count == 0:  # it has the scene's timestep again
-            self._rate = self._frame_end = 0
+            self._frames.forget()
 
     def steps_left(self, simulation: Simulation) -> int:
         """Return the steps to the end of the frame."""
-        return max(1, self._frame_end - simulation.step_count)
+        return self._frames.steps_left(simulation)
+
+    def join(self) -> None:
+        """Leave the timestep to whoever put several together."""
+        self._frames.shared = True
+
+    def offer(self, simulation: Simulation) -> None:
+        """Answer where a frame has ended."""
+        if self._owed and self._frames.over(simulation):
+            self._answer(simulation)
+
+    def next_ns(self, simulation: Simulation) -> int:
+        """Return the simulated time at which the present frame ends [ns]."""
+        return self._frames.end_ns
 
     def meet(self, simulation: Simulation) -> bool:
         """Answer at the end of a frame, and begin the next one with the packet that follows."""
-        if simulation.step_count < self._frame_end:
+        if not self._frames.over(simulation):
             return True
         if self._owed:
             self._answer(simulation)
@@ -124,7 +134,7 @@ class ArduPilotBridge(AutopilotLink):
 
     def _values(self) -> dict[str, Any]:
         return {
-            'port': self.port, 'peer': _text(self._peer), 'frame_rate_hz': self._rate,
+            'port': self.port, 'peer': _text(self._peer), 'frame_rate_hz': self._frames.rate,
             'frame_count': self._count,
         }  # fmt: skip
 
@@ -157,8 +167,8 @@ class ArduPilotBridge(AutopilotLink):
 
     def _answer(self, simulation: Simulation) -> None:
         self._sent_ns = simulation.time_ns + self._offset_ns
-        self._frames += 1
-        time_s = self._sent_ns * 1e-9 + self._frames * _AHEAD
+        self._told += 1
+        time_s = self._sent_ns * 1e-9 + self._told * _AHEAD
         self._reply = write_state(self._state.read(time_s))
         self._owed = False
         self.counters.sent += 1
@@ -170,14 +180,7 @@ class ArduPilotBridge(AutopilotLink):
             self._offset_ns = self._sent_ns - simulation.time_ns
         if self._silence.reported:
             self._silence.ends(time.monotonic() - self._silent_at)
-        if packet.rate != self._rate:
-            self._rate = packet.rate
-            frame = Fraction(frame_us(packet.rate), 1_000_000)
-            self._steps = -int(-frame // self._longest)  # rounded up
-            timestep = frame / self._steps
-            simulation.set_timestep(timestep)
-            if self._surroundings.log is not None:
-                self._surroundings.log.event(timestep=str(timestep))
+        self._frames.begin(simulation, packet.rate)
         if self._count >= 0:
             self.counters.answered += 1
         if line := self._frame.differences():
@@ -186,14 +189,13 @@ class ArduPilotBridge(AutopilotLink):
         self._drive(packet.pulses)
         if self._battery is not None:
             self._battery.draw(self._thrusts, 1e-6 * frame_us(packet.rate))
-        self._frame_end = simulation.step_count + self._steps
         self._owed = True
 
     def _go_on_alone(self, simulation: Simulation) -> bool:
         """Begin a while at real time (it was waited for as long), with everything at rest."""
         self._commands.set(*self._actuators.rest)
         self._owed = False
-        self._frame_end = simulation.step_count + max(1, round(SLICE / simulation.timestep))
+        self._frames.go_on(simulation, SLICE)
         return True
 
     # ---- packets ---------------------------------------------------------------------------
@@ -256,11 +258,12 @@ class ArduPilotBridge(AutopilotLink):
         """Begin anew with a process whose frames count from the start again."""
         self.counters.restarts += 1
         self._surroundings.inform('ArduPilot has restarted: back to the start')
-        self._sent_ns = self._offset_ns = self._frames = 0
-        self._count, self._rate, self._reply = -1, 0, b''
+        self._sent_ns = self._offset_ns = self._told = 0
+        self._count, self._reply = -1, b''
         self._owed = False
         self._surroundings.reset()
-        self._frame_end = simulation.step_count
+        self._frames.forget()
+        self._frames.end_here(simulation)
         self._waiting = packet
 
     def _note_silence(self, now: float) -> None:
@@ -271,24 +274,6 @@ class ArduPilotBridge(AutopilotLink):
             if not self._silence.reported:
                 self._silent_at = self._heard_at
             self._silence.lasts(now - self._heard_at)
-
-
-def frame_us(rate: int) -> int:
-    """
-    Return the length of a frame.
-
-    Parameters
-    ----------
-    rate
-        Frames per second that ArduPilot states [Hz].
-
-    Returns
-    -------
-    int
-        [us], rounded down, as ArduPilot's own clock does.
-
-    """
-    return 1_000_000 // rate
 
 
 def _text(sender: Any) -> str:

@@ -31,6 +31,7 @@ from fluid_sim_ros.step_clock import exact
 FIRST_PORT = 4560
 #: Between two exchanges [us]: PX4 answers each HIL_SENSOR at this rate.
 PERIOD_US = 4000
+_PERIOD_NS = 1000 * PERIOD_US
 #: Wall time for one exchange while free-wheeling [s]: real time.
 _FREE_WHEEL = PERIOD_US * 1e-6
 
@@ -102,7 +103,7 @@ class Px4Bridge(AutopilotLink):
         if not self._server.connected and not self._greet():
             return False
         now_us = self._now_us(simulation)
-        if simulation.step_count % self._period or not now_us:
+        if simulation.time_ns % _PERIOD_NS or not now_us:
             return True  # PX4 takes no message of time 0
         if now_us != self._sent_us:
             if self._server.stuck and not self._silence.given_up:  # it is halted at its start
@@ -111,6 +112,20 @@ class Px4Bridge(AutopilotLink):
                 return False
             self._send(now_us)
         return self._wait()
+
+    def join(self) -> None:
+        """Nothing changes: its exchanges come at times, whatever the timestep."""
+
+    def offer(self, simulation: Simulation) -> None:
+        """Send the sensors where an exchange is due and PX4 can take them."""
+        now_us = self._now_us(simulation)
+        due = now_us and now_us != self._sent_us and not simulation.time_ns % _PERIOD_NS
+        if due and self._server.connected and not self._server.stuck:
+            self._send(now_us)
+
+    def next_ns(self, simulation: Simulation) -> int:
+        """Return the simulated time of the next exchange [ns]."""
+        return (simulation.time_ns // _PERIOD_NS + 1) * _PERIOD_NS
 
     def _values(self) -> dict[str, Any]:
         return {

@@ -59,8 +59,8 @@ class Diagnostics:
 
     Attributes
     ----------
-    tap, bridge
-        Recorder and autopilot, where there are some.
+    tap, bridges
+        Recorder (or None) and autopilots, where there are some.
     record
         Place of /diagnostics in the log, or -1.
     publisher
@@ -86,7 +86,7 @@ class Diagnostics:
         self._outputs = outputs
         self._notes = notes
         self.tap: RecorderPort | None = None
-        self.bridge: Bridge | None = None
+        self.bridges: Sequence[Bridge] = ()
         self.record = -1
         self.publisher = RawPublisher(node, DIAGNOSTICS, '/diagnostics', STATE)
         self._speed = SpeedWatch(simulation, inputs, outputs, node.get_logger().warning)
@@ -121,10 +121,11 @@ class Diagnostics:
         ]
         if self._notes:
             message.status.append(self._status('start', _WARN, '; '.join(self._notes)))
-        if self.bridge is not None:
-            status = self.bridge.status()
+        for bridge in self.bridges:
+            status = bridge.status()
+            part = 'autopilot' if len(self.bridges) == 1 else f'autopilot {bridge.vehicle}'
             message.status.append(
-                self._status('autopilot', _LEVELS[status.level], status.message, **status.values)
+                self._status(part, _LEVELS[status.level], status.message, **status.values)
             )
         if self.tap is not None:
             message.status.append(self._recording(self.tap))

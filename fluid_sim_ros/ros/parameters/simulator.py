@@ -113,7 +113,9 @@ TABLE: dict[str, Declared] = {
         names_place=True,
     ),
     'autopilot.protocol': Declared(
-        'none', 'autopilot that flies a vehicle, in lockstep', choices=('none', *PROTOCOLS)
+        'scene',
+        'autopilot that flies a vehicle, in lockstep; scene = those of the scene file, if any',
+        choices=('scene', 'none', *PROTOCOLS),
     ),
     'autopilot.vehicle': Declared('', 'vehicle that it flies; empty = the only one'),
     'autopilot.mapping': Declared(

@@ -81,10 +81,8 @@ def fleet_fields(content: FleetFile, path: Path) -> dict[str, Any]:
             files[vehicle] = file
     check_limit('fleet_vehicles', len(members), f'{path}: vehicles')
     world, taken_out = _world(content, path, members, specs, files)
-    return {
-        'model_path': world, 'fleet': Fleet(_numbered(members), taken_out), 'vehicles': files,
-        'keyframe': None,
-    }  # fmt: skip
+    fleet = Fleet(_numbered(members, path), taken_out)
+    return {'model_path': world, 'fleet': fleet, 'vehicles': files, 'keyframe': None}
 
 
 def _places(name: str, stated: FleetVehicle) -> Iterator[tuple[str, tuple[float, ...]]]:
@@ -152,12 +150,18 @@ def _world(
     return world, ()
 
 
-def _numbered(members: dict[str, Member]) -> dict[str, Member]:
+def _numbered(members: dict[str, Member], path: Path) -> dict[str, Member]:
     """Give each autopilot without an instance the next of its protocol."""
     taken: dict[str, set[int]] = {}
-    for member in members.values():
+    for name, member in members.items():
         if (pilot := member.autopilot) is not None and pilot.instance is not None:
-            taken.setdefault(pilot.protocol, set()).add(pilot.instance)
+            used = taken.setdefault(pilot.protocol, set())
+            if pilot.instance in used:
+                raise ConfigError(
+                    f"{path}: key 'vehicles.{name}.autopilot.instance': {pilot.instance} of "
+                    f'{pilot.protocol} stands twice; leave it out, and each gets one of its own'
+                )
+            used.add(pilot.instance)
     numbered: dict[str, Member] = {}
     for name, member in members.items():
         pilot = member.autopilot
