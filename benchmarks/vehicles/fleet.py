@@ -1,0 +1,172 @@
+"""
+What a vehicle of a fleet costs: 1, 4, 16 and 50 of them in one model, and ten in the node.
+
+Time per vehicle and step, stepped as the node does: five steps a call, then all states are read.
+``call`` is that without reading, ``long`` one call of 100 steps. All counts take turns in one run,
+and the medians of their ratios to a fleet of one count. Target: within 25 % of one vehicle. What
+grows is MuJoCo's own: ``mj_transmission`` makes a dense Jacobian over all degrees of freedom for
+each actuator at a site, and an x500 has eight of those. The node runs free with ten x500 and the
+odometry of all of them at 100 Hz to one subscriber.
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from benchmarks.common import arguments, wall_seconds, write
+from fluid_sim_ros import Simulation
+
+COUNTS = (1, 4, 16, 50)
+MODELS = {'x500': 'position: [0, 0, 10], keyframe: hover', 'bluerov2': 'position: [0, 0, -5]'}
+TARGET = 1.25
+DOMAIN, VEHICLES = '103', 10
+
+SUBSCRIBER = textwrap.dedent(f"""
+    import rclpy, time
+    from nav_msgs.msg import Odometry
+    from rclpy.executors import SingleThreadedExecutor
+    rclpy.init()
+    node = rclpy.create_node('listener')
+    counts = [0] * {VEHICLES}
+    last = [0.0]
+    def counter(i):
+        def take(message):
+            counts[i] += 1
+            last[0] = time.monotonic()
+        return take
+    for i in range({VEHICLES}):
+        node.create_subscription(Odometry, f'v_{{i + 1}}/odom', counter(i), 10, raw=True)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    print('ready', flush=True)
+    while not (last[0] and time.monotonic() - last[0] > 1.0):
+        executor.spin_once(timeout_sec=0.1)
+    print(counts)
+""")
+
+# The node with its loop timed: it waits for the subscriber, then runs the whole duration.
+NODE = textwrap.dedent(f"""
+    import sys, time
+    from fluid_sim_ros.loop import runner
+    from fluid_sim_ros.ros import node
+    plain = runner.Runner.run
+    def timed(self, until=runner.NEVER):
+        outputs = self.sinks[0]
+        while True:
+            outputs.refresh()
+            if len(outputs._active) >= {VEHICLES}:
+                break
+            time.sleep(0.05)
+        start = time.perf_counter()
+        plain(self, until)
+        print(repr((self.simulation.time, time.perf_counter() - start)), flush=True)
+    runner.Runner.run = timed
+    sys.exit(node.main(sys.argv))
+""")
+
+
+def scene_of(model: str, count: int, folder: Path) -> Path:
+    """Return the file of a scene with so many vehicles 3 m apart."""
+    path = folder / f'{model}_{count}.yaml'
+    entry = f'model: {model}, {MODELS[model]}, count: {count}, spacing: 3'
+    path.write_text(f'vehicles: {{v: {{{entry}}}}}\n', encoding='utf-8')
+    return path
+
+
+def loops(simulation: Simulation, steps: int) -> dict[str, Callable[[], None]]:
+    """Return the ways in which steps are taken."""
+
+    def as_node() -> None:
+        for _ in range(steps // 5):
+            simulation.step(5)
+            simulation.observe(forces=False)
+
+    def call() -> None:
+        for _ in range(steps // 5):
+            simulation.step(5)
+
+    def long() -> None:
+        for _ in range(steps // 100):
+            simulation.step(100)
+
+    return {'as_node': as_node, 'call': call, 'long': long}
+
+
+def cost(model: str, folder: Path, rounds: int) -> dict[str, Any]:
+    """Return the cost of each count [us per vehicle and step] and its ratio to one vehicle."""
+    scenes = {0: Simulation(model)}  # the scene of the model alone
+    scenes |= {count: Simulation(scene_of(model, count, folder)) for count in COUNTS}
+    times: dict[str, dict[int, list[float]]] = {}
+    for _ in range(rounds):
+        for count, simulation in scenes.items():
+            steps = 4000 // max(1, count) // 100 * 100 or 100
+            for way, loop in loops(simulation, steps).items():
+                simulation.reset()
+                per_vehicle = wall_seconds(loop) / steps / max(1, count) * 1e6
+                times.setdefault(way, {}).setdefault(count, []).append(per_vehicle)
+    return {
+        way: {
+            str(count) if count else 'single scene': {
+                'us_per_vehicle_step': statistics.median(values),
+                'ratio': statistics.median(
+                    value / one for value, one in zip(values, of_count[1], strict=True)
+                ),
+            }
+            for count, values in of_count.items()
+        }
+        for way, of_count in times.items()
+    }
+
+
+def node(folder: Path, seconds: float) -> dict[str, Any]:
+    """Return the real-time factor of the node with ten vehicles, and what arrived."""
+    environment = {
+        **os.environ, 'ROS_DOMAIN_ID': DOMAIN, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'
+    }  # fmt: skip
+    with subprocess.Popen(
+        [sys.executable, '-c', SUBSCRIBER], stdout=subprocess.PIPE, text=True, env=environment
+    ) as listener:
+        assert listener.stdout is not None
+        listener.stdout.readline()
+        settings = {
+            'scene': scene_of('x500', VEHICLES, folder), 'pacing': 'free', 'duration': seconds
+        }  # fmt: skip
+        given = [part for key, value in settings.items() for part in ('-p', f'{key}:={value}')]
+        done = subprocess.run(
+            [sys.executable, '-c', NODE, '--ros-args', *given],
+            capture_output=True, text=True, env=environment, check=True,
+        )  # fmt: skip
+        simulated, wall = eval(done.stdout.splitlines()[-1], {})  # noqa: S307 - our own repr
+        received = json.loads(listener.communicate()[0])
+    return {
+        'vehicles': VEHICLES, 'odometry_hz': 100, 'real_time_factor': simulated / wall,
+        'messages_per_s': sum(received) / wall, 'received_share': sum(received) / (
+            VEHICLES * 100 * simulated
+        ),
+    }  # fmt: skip
+
+
+def main() -> None:
+    """Measure and write the result."""
+    options = arguments(__doc__, 'fleet')
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        costs = {model: cost(model, folder, 5 if options.quick else 25) for model in MODELS}
+        ten = node(folder, 10.0 if options.quick else 60.0)
+    for model, ways in costs.items():
+        for way, rows in ways.items():
+            shown = ', '.join(f'{n}: {r["us_per_vehicle_step"]:.2f}' for n, r in rows.items())
+            print(f'{model}, {way}: {shown} us; 50 over one {rows["50"]["ratio"]:.3f}')
+    print(f'node with {VEHICLES}: {ten["real_time_factor"]:.1f} times real time')
+    write(options.json, {'target_ratio': TARGET, 'cost': costs, 'node': ten})
+
+
+if __name__ == '__main__':
+    main()
