@@ -21,12 +21,13 @@ namespace {
 const Medium kNoMedium{};
 constexpr mjtNum kNoSpin[3] = {0, 0, 0};
 
-// First instance that takes part in the assembly, or -1.
+// First instance that takes part in the assembly, or -1; asked for every body that is observed.
 int FirstInstance(const mjModel* m) {
+  static const int body = PluginSlot(kBodyPlugin), medium = PluginSlot(kMediumPlugin),
+                   foil = PluginSlot(kFoilPlugin);
   for (int i = 0; i < m->nplugin; ++i) {
-    for (const char* name : {kBodyPlugin, kMediumPlugin, kFoilPlugin}) {
-      if (IsPlugin(m, i, name)) return i;
-    }
+    const int slot = m->plugin[i];
+    if (slot == body || slot == medium || slot == foil) return i;
   }
   return -1;
 }

@@ -48,6 +48,12 @@ const char* PluginName(const mjModel* m, int instance) {
   return plugin ? plugin->name : "";
 }
 
+int PluginSlot(const char* name) {
+  int slot = -1;
+  mjp_getPlugin(name, &slot);
+  return slot;
+}
+
 bool IsPlugin(const mjModel* m, int instance, const char* name) {
   return std::strcmp(PluginName(m, instance), name) == 0;
 }

@@ -66,6 +66,10 @@ std::string InstanceTitle(const mjModel* m, int instance);
 // Name of the plugin of an instance ("" if unknown).
 const char* PluginName(const mjModel* m, int instance);
 
+// Number that a plugin was registered under: what m->plugin holds, and quicker than its name. -1:
+// it was not.
+int PluginSlot(const char* name);
+
 // The instance is of the plugin `name`.
 bool IsPlugin(const mjModel* m, int instance, const char* name);
 
