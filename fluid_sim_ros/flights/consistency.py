@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fluid_sim_ros.flights.flight import ACTUATORS, Flight, Signal
+from fluid_sim_ros.flights.flight import Flight, Signal
 from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
@@ -24,6 +24,8 @@ _MOST_INTERVALS = 4000
 _AGREE, _BETTER = 0.35, 0.5
 #: Less motion than this tells nothing: [m], [rad], [m/s] rms over an interval.
 _LEAST = {'velocity': 0.1, 'rates': 0.02, 'specific_force': 0.1}
+#: Turn over an interval [rad].
+_SMALL_TURN = 0.7
 #: Clock offsets that are tried [s].
 _LAGS = np.arange(-0.3, 0.3001, 0.005)
 #: Factors that a wrong unit makes, and the unit that then stands in the log.
@@ -164,6 +166,11 @@ def _pair(flight: Flight, of: str, change: str, words: str) -> Check:
         values = rotations(attitude).apply(values)
     integral = _summed(signal, values)
     moved = _change(flight, of, change, begins, ends)
+    if of == 'rates':  # the sum of rates is a rotation vector for small turns only
+        small = np.linalg.norm(moved, axis=1) < _SMALL_TURN
+        if small.sum() < 10:
+            return Check(words, of, None, None)
+        begins, ends, moved = begins[small], ends[small], moved[small]
     moving = moved - moved.mean(axis=0) if of == 'specific_force' else moved
     if float(np.sqrt((moving**2).sum(axis=1).mean())) < _LEAST[of]:
         return Check(words, of, None, None)
@@ -249,7 +256,7 @@ def _drive(driving: Signal, force: Signal) -> Check:
         return Check(words, driving.quantity, None, None)
     times = np.arange(low, high, 1 / rate)[:200_000]
     shared = force.between(times)[:, 2]
-    power = 2 if driving.quantity in ('rotor_speed', *ACTUATORS[2:]) else 1
+    power = 2 if driving.quantity in ('rotor_speed', 'normalized', 'pulse') else 1
     given = (np.nan_to_num(driving.values) ** power).sum(axis=1)
     turns = [np.interp(times - x, driving.times, given) for x in _LAGS]
     if min(np.ptp(turn) for turn in turns) == 0 or np.ptp(shared) == 0:

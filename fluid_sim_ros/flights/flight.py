@@ -47,7 +47,7 @@ QUANTITIES: dict[str, Quantity] = {
     'battery': Quantity(1, 'V', '', 'voltage of the battery'),
 }
 #: What drives a model, the most direct first.
-ACTUATORS = ('rotor_speed', 'thrust', 'pulse', 'normalized')
+ACTUATORS = ('rotor_speed', 'thrust', 'normalized', 'pulse')
 #: What a comparison starts from and judges by.
 STATE = ('position', 'attitude', 'velocity', 'rates')
 

@@ -1,5 +1,6 @@
 """A scene: its model, vehicles, weather and schedule, validated, with every name as an id."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -154,7 +155,11 @@ class Scene:
         own = {key: getattr(self, key) for key in ('timestep', 'integrator', 'fluid')}
         return RunSettings.checked(f"{self.name}: key '{{}}'", **own)
 
-    def compile(self, settings: RunSettings = _AS_STATED) -> CompiledScene:
+    def compile(
+        self,
+        settings: RunSettings = _AS_STATED,
+        edit: Callable[[mujoco.MjSpec], None] | None = None,
+    ) -> CompiledScene:
         """
         Compile the model and resolve every name.
 
@@ -162,6 +167,8 @@ class Scene:
         ----------
         settings
             Of the run; what it leaves open the scene says, or else the model.
+        edit
+            Changes the model last, before it is compiled.
 
         Returns
         -------
@@ -195,6 +202,8 @@ class Scene:
             add_waves(spec, self.waves.keys(seed), self.name)
         if fluid != 'none':
             apply_weather(spec, self.wind, self.current, seed, self.name)
+        if edit is not None:
+            edit(spec)
         model = compile_spec(spec, source)
         vehicles = self._vehicles(model)
         if self.fleet is not None:

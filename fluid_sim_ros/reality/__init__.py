@@ -1,0 +1,1 @@
+"""A model against real flights: compared by open-loop windows, fitted, excited."""

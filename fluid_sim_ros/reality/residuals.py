@@ -1,0 +1,308 @@
+"""What a model's accelerations lack at the measured states: by axis, and against what."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fluid_sim_ros.flights.flight import Flight
+from fluid_sim_ros.flights.units import rotations
+from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.reality.driven import Driven
+from fluid_sim_ros.reality.flying import Flyer
+from fluid_sim_ros.reality.windows import ATTITUDE, VELOCITY, Windows, lead_in, state_at
+from fluid_sim_ros.simulation.engine import Engine
+
+#: Accelerations are averaged over this time, in the log and in the model [s]: what shakes faster
+#: is vibration.
+_AVERAGE = 0.05
+#: Distance of the looks [s], and most of them.
+_APART, _MOST = 0.004, 8000
+#: A word is said of an axis from this share of the force on, and of its scatter.
+_WORTH, _CLEAR = 0.02, 0.25
+AXES = ('x', 'y', 'z')
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """
+    Accelerations along a flight, averaged, measured and by the model.
+
+    Attributes
+    ----------
+    times
+        [s], shape (n,).
+    force, force_model
+        Specific force, body axes [m/s^2], shape (n, 3); empty without an accelerometer.
+    turn, turn_model
+        Angular acceleration, body axes [rad/s^2], shape (n, 3).
+    speed
+        Velocity relative to the medium as far as it is known, body axes [m/s], shape (n, 3).
+    tilt
+        [rad], shape (n,).
+    drive
+        Mean of the controls' sizes, shape (n,).
+
+    """
+
+    times: Array
+    force: Array
+    force_model: Array
+    turn: Array
+    turn_model: Array
+    speed: Array
+    tilt: Array
+    drive: Array
+
+
+@dataclass(frozen=True)
+class Accelerations:
+    """What a model has at measured states: body axes, and the controls that drove it."""
+
+    force: Array
+    turn: Array
+    controls: Array
+
+
+def residuals(flyer: Flyer, windows: Windows) -> Residuals:
+    """
+    Evaluate a model's accelerations at the measured states of a flight.
+
+    Parameters
+    ----------
+    flyer
+        Of the driven model.
+    windows
+        Where the flight is whole.
+
+    Returns
+    -------
+    Residuals
+        Inside of the windows.
+
+    """
+    flight = windows.flight
+    times = _times(windows)
+    states = state_at(flight, times)
+    model = accelerations(flyer, flight, times)
+    force = np.zeros((0, 3))
+    if 'specific_force' in flight.signals:
+        force = _averaged(times, flight.signals['specific_force'].between(times))
+    rates = flight.signals['rates'].between(times)
+    turn = np.gradient(_averaged(times, rates), times, axis=0)
+    attitude = rotations(states[:, ATTITUDE])
+    wind = flight.signals.get('wind')
+    relative = states[:, VELOCITY] - (0.0 if wind is None else wind.between(times))
+    up = attitude.apply(np.tile([0.0, 0.0, 1.0], (len(times), 1)))[:, 2]
+    return Residuals(
+        times, force, _averaged(times, model.force), turn, _averaged(times, model.turn),
+        attitude.inv().apply(relative), np.arccos(np.clip(up, -1, 1)),
+        np.abs(model.controls).mean(axis=1),
+    )  # fmt: skip
+
+
+def accelerations(flyer: Flyer, flight: Flight, times: Array) -> Accelerations:
+    """
+    Return a model's specific force and angular acceleration at measured states.
+
+    Parameters
+    ----------
+    flyer
+        Of the driven model.
+    flight
+        That drives it.
+    times
+        [s], shape (n,).
+
+    Returns
+    -------
+    Accelerations
+        [m/s^2] and [rad/s^2], shape (n, 3) each.
+
+    """
+    driven, signal = flyer.driven, flight.actuators
+    assert signal is not None
+    states = state_at(flight, times)
+    taken = signal.between if driven.kind == 'rotor_speed' else signal.held
+    controls = driven.controls(taken(times)[:, list(driven.columns)])
+    wind = flight.signals.get('wind')
+    flow = None if wind is None else wind.between(times)
+    before = lead_in(driven, flyer.timestep)
+    spun = None
+    if before:
+        points = Windows(flight, times, 0.0, {})
+        lead = points.controls(driven, flyer.timestep, before)
+        spun = flyer.spin_up(flyer.states(states, None, None), lead)
+    force, turn = _model(driven, states, controls, spun, flow)
+    return Accelerations(force, turn, controls)
+
+
+def _times(windows: Windows) -> Array:
+    begin, end = windows.begins[0], windows.begins[-1] + windows.length
+    times = np.arange(begin, end, max(_APART, (end - begin) / _MOST))
+    inside = np.zeros(len(times), dtype=np.bool_)
+    for start in windows.begins:
+        first, last = np.searchsorted(times, (start, start + windows.length))
+        inside[first:last] = True
+    return times[inside]
+
+
+def _model(
+    driven: Driven, states: Array, controls: Array, spun: Array | None, flow: Array | None
+) -> tuple[Array, Array]:
+    engine = Engine(driven.model, [driven.vehicle.body_id])
+    model, data, vehicle = engine.model, engine.data, driven.vehicle
+    at, dof = vehicle.qpos_address, vehicle.dof_address
+    has = model.actuator_actnum[vehicle.thruster_ids] > 0
+    acts = model.actuator_actadr[vehicle.thruster_ids][has]
+    force, turn = np.empty((len(states), 3)), np.empty((len(states), 3))
+    for i, state in enumerate(states):
+        data.qpos[at : at + 7], data.qvel[dof : dof + 6] = state[:7], state[7:]
+        data.ctrl[vehicle.thruster_ids] = controls[i]
+        if spun is not None:
+            data.act[acts] = spun[i]
+        if flow is not None:
+            _stir(engine, flow[i])
+        row = engine.observe(forces=True, wrenches=False)[0]
+        force[i], turn[i] = row[nat.SPECIFIC_FORCE], row[nat.ANGULAR_ACCELERATION]
+    return force, turn
+
+
+def _stir(engine: Engine, flow: Array) -> None:
+    velocity = np.ascontiguousarray(flow)
+    address = velocity.ctypes.data
+    if not nat.native().set_medium(*engine.addresses, address, address):
+        engine.model.opt.wind[:] = flow
+
+
+def _averaged(times: Array, values: Array) -> Array:
+    """Return a running mean; the ends are averaged over what is there."""
+    if len(times) < 3 or not len(values):
+        return values
+    half = max(1, round(0.5 * _AVERAGE / float(np.median(np.diff(times)))))
+    total = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+    index = np.arange(len(values))
+    low: Any = np.maximum(index - half, 0)
+    high: Any = np.minimum(index + half + 1, len(values))
+    counts: Any = high - low
+    mean: Array = (total[high] - total[low]) / counts[:, None]
+    return mean
+
+
+def summary(found: Residuals) -> dict[str, Any]:
+    """
+    Return the residuals as numbers.
+
+    Parameters
+    ----------
+    found
+        Along a flight.
+
+    Returns
+    -------
+    dict
+        Per kind and axis: ``mean``, ``rms``, ``scale`` (measured over model, through zero),
+        ``per_speed`` (residual per velocity along the axis) and the rms in four parts of speed,
+        tilt and drive.
+
+    """
+    result: dict[str, Any] = {}
+    for name, unit, measured, model in (
+        ('specific_force', 'm/s^2', found.force, found.force_model),
+        ('angular_acceleration', 'rad/s^2', found.turn, found.turn_model),
+    ):
+        if not len(measured):
+            continue
+        off = measured - model
+        axes = {axis: _axis(off[:, i], measured[:, i], model[:, i], found.speed[:, i])
+                for i, axis in enumerate(AXES)}  # fmt: skip
+        size = np.linalg.norm(off, axis=1)
+        result[name] = {
+            'unit': unit, 'axes': axes,
+            'against': {
+                'speed_m_s': _parts(np.linalg.norm(found.speed, axis=1), size),
+                'tilt_deg': _parts(np.degrees(found.tilt), size),
+                'drive': _parts(found.drive, size),
+            },
+        }  # fmt: skip
+    if len(found.force):
+        off = found.force[:, 2] - found.force_model[:, 2]
+        result['specific_force']['z_rms_of_g'] = float(np.sqrt((off**2).mean()) / GRAVITY)
+    return result
+
+
+def _axis(off: Array, measured: Array, model: Array, speed: Array) -> dict[str, float]:
+    moved = float((speed**2).sum())
+    centred = speed - speed.mean()
+    size = max(float(model @ model), 1e-12)
+    return {
+        'mean': float(off.mean()),
+        'rms': float(np.sqrt((off**2).mean())),
+        'measured_rms': float(np.sqrt((measured**2).mean())),
+        'scale': float(measured @ model) / size,
+        'per_speed': float(centred @ off / (centred @ centred)) if moved > 1e-9 else 0.0,
+        'per_speed_explains': float(np.corrcoef(speed, off)[0, 1] ** 2)
+        if np.ptp(speed) > 1e-6 and np.ptp(off) > 1e-12 else 0.0,
+    }  # fmt: skip
+
+
+def _parts(by: Array, size: Array) -> list[dict[str, float]]:
+    """Return the rms of a residual in four parts of equal number."""
+    order = np.argsort(by)
+    return [
+        {'from': float(by[part].min()), 'to': float(by[part].max()),
+         'rms': float(np.sqrt((size[part] ** 2).mean()))}
+        for part in np.array_split(order, 4) if len(part)
+    ]  # fmt: skip
+
+
+def words(numbers: dict[str, Any]) -> list[str]:
+    """
+    Return what the residuals say, for people.
+
+    Parameters
+    ----------
+    numbers
+        As ``summary`` returns them.
+
+    """
+    lines: list[str] = []
+    force = numbers.get('specific_force')
+    if force is None:
+        lines.append('no accelerometer in the log: nothing can be said of the forces by axis')
+    else:
+        z = force['axes']['z']
+        share = z['scale'] - 1
+        if abs(share) > _WORTH:
+            weak = 'too weak' if share > 0 else 'too strong'
+            lines.append(f'the model is {100 * abs(share):.0f} % {weak} along z')
+        lines += [_drag(axis, force['axes'][axis]) for axis in AXES]
+        lines.append(
+            f'specific force along z: {100 * force["z_rms_of_g"]:.1f} % of g off (rms over '
+            f'{1e3 * _AVERAGE:.0f} ms)'
+        )
+    for axis, name in zip(AXES, ('roll', 'pitch', 'yaw'), strict=True):
+        turn = numbers['angular_acceleration']['axes'][axis]
+        if abs(turn['mean']) > max(_CLEAR * turn['rms'], 0.05):
+            lines.append(
+                f'a constant {turn["mean"]:+.2g} rad/s^2 is missing in {name}: the centre of mass '
+                'is not where the model has it, or the thrusters differ'
+            )
+    return [line for line in lines if line]
+
+
+def _drag(axis: str, numbers: dict[str, float]) -> str:
+    slope, explains = numbers['per_speed'], numbers['per_speed_explains']
+    if explains < _CLEAR:
+        return ''
+    if slope < 0:
+        return (
+            f'drag is missing along {axis}: {-slope:.3g} m/s^2 for each m/s '
+            f'({100 * explains:.0f} % of what is off there)'
+        )
+    return (
+        f'there is too much drag along {axis}: {slope:.3g} m/s^2 for each m/s '
+        f'({100 * explains:.0f} % of what is off there)'
+    )
