@@ -1,7 +1,7 @@
 """Compares a model with a flight: open-loop windows, two baselines, residuals of accelerations."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import mujoco
@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.consistency import check_flight
-from fluid_sim_ros.flights.flight import Flight, FlightError
+from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
-from fluid_sim_ros.plugins.config import BODY, plugin_of_body
-from fluid_sim_ros.reality.driven import Driven, Edit, comparable_scene, drive, without_air
+from fluid_sim_ros.reality.airborne import airborne
+from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, without_air
+from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.residuals import Residuals, accelerations, residuals, summary, words
+from fluid_sim_ros.reality.residuals import Residuals, residuals, summary
 from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity, lead_in
 from fluid_sim_ros.schema.settings import RunSettings
 
@@ -30,8 +30,6 @@ BASELINES = {
 }
 #: Winds that differ by less are flown in one batch [m/s].
 _SAME_FLOW = 0.05
-#: Below this share of the weight a vehicle that stands still stands on something.
-_LIFTED = 0.5
 
 
 @dataclass(frozen=True)
@@ -215,52 +213,6 @@ def _flows(flyer: Flyer, windows: Windows) -> list[tuple[NDArray[np.int64], Arra
     return [
         (rows[which == i], flow[which == i], False) for i in range(int(which.max(initial=0)) + 1)
     ]
-
-
-def airborne(windows: Windows, flyer: Flyer) -> tuple[Windows, dict[str, int]]:
-    """
-    Leave out windows in which an aerial vehicle stands on the ground.
-
-    Parameters
-    ----------
-    windows
-        Of the flight.
-    flyer
-        Of the driven model; one that displaces water floats and is never on the ground.
-
-    Returns
-    -------
-    windows, left_out
-        Those that are left, and how many are not.
-
-    Raises
-    ------
-    FlightError
-        If none is left.
-
-    """
-    start = windows.measured(0.0)
-    moved = windows.measured(windows.length)
-    still = np.linalg.norm(moved[:, :3] - start[:, :3], axis=1) < 0.02 * windows.length
-    still &= np.linalg.norm(start[:, 7:10], axis=1) < 0.05
-    if _floats(flyer.driven):
-        return windows, {}
-    middle = windows.begins + 0.5 * windows.length
-    lifted = accelerations(flyer, windows.flight, middle).force[:, 2] > _LIFTED * GRAVITY
-    standing = still & ~lifted
-    if standing.all():
-        raise FlightError(
-            f'{windows.flight.raw.path}: the vehicle stands still throughout, with thrust below '
-            'half of its weight; give --from and --to of the flight'
-        )
-    kept = replace(windows, begins=windows.begins[~standing])
-    count = int(standing.sum())
-    return kept, {'stand on the ground': count} if count else {}
-
-
-def _floats(driven: Driven) -> bool:
-    body = plugin_of_body(driven.model, driven.vehicle.body_id, BODY)
-    return body is not None and bool(body.text('volume'))
 
 
 def by_horizon(horizons: Sequence[float], found: dict[str, Array]) -> dict[str, Any]:

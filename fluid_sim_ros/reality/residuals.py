@@ -17,11 +17,9 @@ from fluid_sim_ros.simulation.engine import Engine
 
 #: Accelerations are averaged over this time, in the log and in the model [s]: what shakes faster
 #: is vibration.
-_AVERAGE = 0.05
+AVERAGE = 0.05
 #: Distance of the looks [s], and most of them.
 _APART, _MOST = 0.004, 8000
-#: A word is said of an axis from this share of the force on, and of its scatter.
-_WORTH, _CLEAR = 0.02, 0.25
 AXES = ('x', 'y', 'z')
 
 
@@ -181,7 +179,7 @@ def _averaged(times: Array, values: Array) -> Array:
     """Return a running mean; the ends are averaged over what is there."""
     if len(times) < 3 or not len(values):
         return values
-    half = max(1, round(0.5 * _AVERAGE / float(np.median(np.diff(times)))))
+    half = max(1, round(0.5 * AVERAGE / float(np.median(np.diff(times)))))
     total = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
     index = np.arange(len(values))
     low: Any = np.maximum(index - half, 0)
@@ -256,53 +254,3 @@ def _parts(by: Array, size: Array) -> list[dict[str, float]]:
          'rms': float(np.sqrt((size[part] ** 2).mean()))}
         for part in np.array_split(order, 4) if len(part)
     ]  # fmt: skip
-
-
-def words(numbers: dict[str, Any]) -> list[str]:
-    """
-    Return what the residuals say, for people.
-
-    Parameters
-    ----------
-    numbers
-        As ``summary`` returns them.
-
-    """
-    lines: list[str] = []
-    force = numbers.get('specific_force')
-    if force is None:
-        lines.append('no accelerometer in the log: nothing can be said of the forces by axis')
-    else:
-        z = force['axes']['z']
-        share = z['scale'] - 1
-        if abs(share) > _WORTH:
-            weak = 'too weak' if share > 0 else 'too strong'
-            lines.append(f'the model is {100 * abs(share):.0f} % {weak} along z')
-        lines += [_drag(axis, force['axes'][axis]) for axis in AXES]
-        lines.append(
-            f'specific force along z: {100 * force["z_rms_of_g"]:.1f} % of g off (rms over '
-            f'{1e3 * _AVERAGE:.0f} ms)'
-        )
-    for axis, name in zip(AXES, ('roll', 'pitch', 'yaw'), strict=True):
-        turn = numbers['angular_acceleration']['axes'][axis]
-        if abs(turn['mean']) > max(_CLEAR * turn['rms'], 0.05):
-            lines.append(
-                f'a constant {turn["mean"]:+.2g} rad/s^2 is missing in {name}: the centre of mass '
-                'is not where the model has it, or the thrusters differ'
-            )
-    return [line for line in lines if line]
-
-
-def _drag(axis: str, numbers: dict[str, float]) -> str:
-    slope, explains = numbers['per_speed'], numbers['per_speed_explains']
-    if explains < _CLEAR:
-        return ''
-    if slope < 0:
-        return (
-            f'drag is missing along {axis}: {-slope:.3g} m/s^2 for each m/s '
-            f'({100 * explains:.0f} % of what is off there)'
-        )
-    return (
-        f'there is too much drag along {axis}: {slope:.3g} m/s^2 for each m/s '
-        f'({100 * explains:.0f} % of what is off there)'
-    )
