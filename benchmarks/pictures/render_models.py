@@ -78,6 +78,8 @@ SHOTS = {
     'aerosonde': Shot(0.0),
     'wave_buoy': Shot(13.0),
     'remus100': Shot(0.0),
+    'bluerov2_tether': Shot(0.0),
+    'x500_slung_load': Shot(0.0),
 }
 
 

@@ -88,7 +88,7 @@ def _source(scene: Scene) -> str:
     world = scene.model_path.name
     if scene.fleet is None:
         return world
-    kinds = dict.fromkeys(member.kind for member in scene.fleet.members.values())
+    kinds = dict.fromkeys(member.model_path.stem for member in scene.fleet.members.values())
     return f'{listed(kinds)} in the world of {world}'
 
 

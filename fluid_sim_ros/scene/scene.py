@@ -255,9 +255,10 @@ class Scene:
             kind = members[name].kind
             found[name] = resolve(name, file, model, where, prefix_of(name), kind)
             if members[name].autopilot is not None and not found[name].thrusters:
+                model_name = members[name].model_path.stem
                 raise ConfigError(
-                    f"{where}: its model '{kind}' has no thrusters for an autopilot to drive; "
-                    "leave out 'autopilot', or name them in its vehicle file"
+                    f"{where}: its model '{model_name}' has no thrusters for an autopilot to "
+                    "drive; leave out 'autopilot', or name them in its vehicle file"
                 )
         return found
 

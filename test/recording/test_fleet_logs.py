@@ -29,8 +29,10 @@ def test_a_composed_model_is_packed_and_repeats_to_the_bit(mixed):
 def test_each_model_is_in_the_log_once(mixed):
     names = [name.removeprefix(MODEL) for name in open_log(mixed).attachments if MODEL in name]
     assert sorted(name for name in names if name.startswith('fleet')) == [
-        'fleet0/parts/meadow.xml', 'fleet0/parts/x500.xml', 'fleet0/x500.xml',
-        'fleet1/bluerov2.xml', 'fleet1/parts/seabed.xml', 'fleet1/parts/underwater.xml',
+        'fleet0/parts/meadow.xml', 'fleet0/parts/x500.xml', 'fleet0/parts/x500_drive.xml',
+        'fleet0/x500.xml', 'fleet1/bluerov2.xml', 'fleet1/parts/bluerov2.xml',
+        'fleet1/parts/bluerov2_drive.xml', 'fleet1/parts/seabed.xml',
+        'fleet1/parts/underwater.xml',
     ]  # fmt: skip
     stated = json.loads(open_log(mixed).attachments[RUN])['scene']['fleet']
     assert [v['model'] for v in stated['members'].values()] == [

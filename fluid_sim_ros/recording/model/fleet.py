@@ -59,7 +59,7 @@ def fleet_of_log(
             files |= {f'{folder}/{place}': content for place, content in own.items()}
             paths[key] = f'{folder}/{path}'
         stated = FleetVehicle(
-            model=paths[key], position=list(member.position), yaw=member.yaw,
+            model=paths[key], vehicle=member.kind, position=list(member.position), yaw=member.yaw,
             keyframe=member.keyframe, autopilot=member.autopilot,
         )  # fmt: skip
         members[name] = stated.model_dump(mode='json')
@@ -87,6 +87,7 @@ def read_fleet(stated: Any) -> Fleet:
         name: Member(
             Path(posixpath.normpath(vehicle.model)), tuple(vehicle.position), vehicle.yaw,
             vehicle.keyframe, vehicle.autopilot,
+            vehicle.vehicle if isinstance(vehicle.vehicle, str) else '',
         )
         for name, vehicle in found.members.items()
     }  # fmt: skip

@@ -87,7 +87,9 @@ def compose(
         key = (member.model_path, id(member.assets) if member.mjcf else 0)
         if key not in sources:
             sources[key] = _source(spec, member)
-            lines += check_options(world.option, spec.option, member.kind, stated, where)
+            lines += check_options(
+                world.option, spec.option, member.model_path.stem, stated, where
+            )
         source = sources[key]
         take_world_away(spec)
         check_base(spec, base, of_vehicle)
@@ -120,10 +122,9 @@ def _attach(
     name_plugins(spec, prefix)
     for part in ('option', 'visual', 'stat'):  # MuJoCo warns where it keeps the world's
         copy_values(getattr(world, part), getattr(spec, part))
-    anchor = spec.body(base)
-    before = anchor.pos.copy(), anchor.quat.copy()
-    for body in moving_roots(spec):
-        body.pos, body.quat = moved(body.pos, body.quat, before, (begin.position, begin.quat))
+    after = begin.position, begin.quat
+    for body in moving_roots(spec):  # all alike: equalities hold where the model stands
+        body.pos, body.quat = moved(body.pos, body.quat, begin.before, after)
     world.attach(spec, prefix=prefix, frame=world.worldbody.add_frame())
     _add_plugins(world, spec, prefix)
 

@@ -71,13 +71,15 @@ def fleet_fields(content: FleetFile, path: Path) -> dict[str, Any]:
         model = model_file(stated.model, path, f"{where}.model'")
         if model not in specs:
             specs[model] = read_spec(model, '', {})
-        file = _vehicle_of(stated, model, specs[model], path, f"{where}'")
+        file, kind = _vehicle_of(stated, model, specs[model], path, f"{where}'")
         for vehicle, place in _places(name, stated):
             if vehicle in members:
                 raise ConfigError(
                     f"{where}': the name '{vehicle}' stands twice; choose another name"
                 )
-            members[vehicle] = Member(model, place, stated.yaw, stated.keyframe, stated.autopilot)
+            members[vehicle] = Member(
+                model, place, stated.yaw, stated.keyframe, stated.autopilot, kind
+            )
             files[vehicle] = file
     check_limit('fleet_vehicles', len(members), f'{path}: vehicles')
     world, taken_out = _world(content, path, members, specs, files)
@@ -102,21 +104,39 @@ def _places(name: str, stated: FleetVehicle) -> Iterator[tuple[str, tuple[float,
 
 def _vehicle_of(
     stated: FleetVehicle, model: Path, spec: mujoco.MjSpec, path: Path, where: str
-) -> VehicleFile:
-    """Return how commands map onto a model: as stated, by the model's name, or by its body."""
+) -> tuple[VehicleFile, str]:
+    """Return how commands map onto a model, and the name by which mappings of autopilots go."""
     if isinstance(stated.vehicle, VehicleFile):
-        return stated.vehicle
+        return stated.vehicle, model.stem
     if stated.vehicle is not None:
-        return vehicle_file(stated.vehicle, path)
-    if (config_folder() / 'vehicles' / f'{model.stem}.yaml').is_file():
-        return vehicle_file(model.stem, path)
-    free = [body.name for body in moving_roots(spec) if body.name]
-    if len(free) != 1:
+        return vehicle_file(stated.vehicle, path), Path(stated.vehicle).stem
+    if _has_file(model.stem):
+        return vehicle_file(model.stem, path), model.stem
+    moving = [body for body in moving_roots(spec) if body.name]
+    driven = [body for body in moving if _is_driven(spec, body)]
+    found = [body.name for body in (driven if len(moving) > 1 else moving)]
+    if len(found) != 1:
+        names = [body.name for body in moving]
         raise ConfigError(
-            f"{where}: the model '{model.stem}' has {len(free)} moving bodies with a name "
-            f'({listed(free)}); say which is the base: vehicle: {{body: NAME}}'
+            f"{where}: the model '{model.stem}' has {len(moving)} moving bodies with a name "
+            f'({listed(names)}), {len(driven)} of them with actuators; say which is the base: '
+            'vehicle: {body: NAME}'
         )
-    return VehicleFile(body=free[0])
+    base = found[0]
+    if _has_file(base) and (file := vehicle_file(base, path)).body == base:
+        return file, base
+    return VehicleFile(body=base), model.stem
+
+
+def _has_file(name: str) -> bool:
+    return (config_folder() / 'vehicles' / f'{name}.yaml').is_file()
+
+
+def _is_driven(spec: mujoco.MjSpec, root: mujoco.MjsBody) -> bool:
+    """Return whether an actuator acts on a site or joint of a body or below it."""
+    targets = {actuator.target for actuator in spec.actuators}
+    bodies = [root, *root.find_all('body')]
+    return any(e.name in targets for b in bodies for e in (*b.sites, *b.joints) if e.name)
 
 
 def _world(

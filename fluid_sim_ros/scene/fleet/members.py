@@ -26,6 +26,8 @@ class Member:
         Of its model; '': as the model stands.
     autopilot
         Who flies it, or None; its instance is a number.
+    kind
+        By which mappings of autopilots go: the name of its vehicle file, or else of its model.
     mjcf, assets
         The model as text, in place of the file, and the files that it names.
 
@@ -36,13 +38,9 @@ class Member:
     yaw: float = 0.0
     keyframe: str = ''
     autopilot: FleetAutopilot | None = None
+    kind: str = ''
     mjcf: str = field(default='', repr=False)
     assets: dict[str, bytes] = field(default_factory=dict, repr=False)
-
-    @property
-    def kind(self) -> str:
-        """Name of its model, by which mappings of autopilots go."""
-        return self.model_path.stem
 
 
 @dataclass(frozen=True)

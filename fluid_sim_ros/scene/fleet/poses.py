@@ -32,6 +32,8 @@ class Begin:
     ----------
     position, quat
         Of its base in the world [m], scalar first.
+    before
+        The same of its keyframe, before it was put there.
     start
         Its state.
     keyframes
@@ -41,6 +43,7 @@ class Begin:
 
     position: Array
     quat: Array
+    before: Pose
     start: State
     keyframes: dict[str, State]
 
@@ -84,11 +87,12 @@ class Begin:
         stands = (body.pos.copy(), body.quat.copy())
         if not free:
             position = _at(member.position, stands[0])
-            return cls(position, _turned(stands[1], turn), start, keyframes)
+            return cls(position, _turned(stands[1], turn), stands, start, keyframes)
         placed = _placed(model, joint, start, member.position, turn)
         q = int(model.jnt_qposadr[joint])
         return cls(
-            placed.qpos[q : q + 3], placed.qpos[q + 3 : q + 7], placed,
+            placed.qpos[q : q + 3], placed.qpos[q + 3 : q + 7],
+            (start.qpos[q : q + 3], start.qpos[q + 3 : q + 7]), placed,
             {
                 name: _placed(model, joint, state, member.position[:2], turn)
                 for name, state in keyframes.items()

@@ -32,11 +32,10 @@ def write(tmp_path):
     (tmp_path / 'rk4.xml').write_text(BOAT.replace('implicitfast', 'RK4'))
     (tmp_path / 'moon.xml').write_text(BOAT.replace('<option', '<option gravity="0 0 -1.62"'))
     (tmp_path / 'salt.xml').write_text(BOAT.replace('density="1000"', 'density="1025"'))
-    (tmp_path / 'pair.xml').write_text(
-        BOAT.replace(
-            '</worldbody>', '<body name="b"><freejoint/><geom size=".1"/></body></worldbody>'
-        )
-    )
+    two = '<body name="b"><freejoint/><geom size=".1"/></body></worldbody>'
+    pair = BOAT.replace('</worldbody>', two).replace('<motor name="m1" site="s1" ', '<motor ')
+    pair = pair.replace('<motor gear="0 0 1 0 0 0"/>', '')
+    (tmp_path / 'pair.xml').write_text(pair)
 
     def file(text):
         path = tmp_path / 'fleet.yaml'
