@@ -6,22 +6,27 @@ Time per vehicle and step, stepped as the node does: five steps a call, then all
 and the medians of their ratios to a fleet of one count. Target: within 25 % of one vehicle. What
 grows is MuJoCo's own: ``mj_transmission`` makes a dense Jacobian over all degrees of freedom for
 each actuator at a site, and an x500 has eight of those. The node runs free with ten x500 and the
-odometry of all of them at 100 Hz to one subscriber.
+odometry of all of them at 100 Hz to one subscriber. ``lockstep`` has an x500 for each of several
+PX4 that answer at once, all in one lockstep: speed, and processor time of an exchange.
 """
 
 import json
+import multiprocessing
 import os
 import statistics
 import subprocess
 import sys
 import tempfile
 import textwrap
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from benchmarks.common import arguments, wall_seconds, write
+from benchmarks.node.autopilot_bridge import px4_peer
 from fluid_sim_ros import Simulation
+from test.support.autopilots.fleet_peers import FleetFlight
 
 COUNTS = (1, 4, 16, 50)
 MODELS = {'x500': 'position: [0, 0, 10], keyframe: hover', 'bluerov2': 'position: [0, 0, -5]'}
@@ -153,6 +158,33 @@ def node(folder: Path, seconds: float) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def lockstep(count: int, folder: Path, seconds: float) -> dict[str, float]:
+    """Return the speed with so many PX4, and the processor time of each of their exchanges."""
+    path = folder / f'px4_{count}.yaml'
+    entry = f'model: x500, keyframe: ground, autopilot: px4, count: {count}, spacing: 3'
+    path.write_text(f'vehicles: {{v: {{{entry}}}}}\n', encoding='utf-8')
+    flight = FleetFlight(path)
+    peers = [
+        multiprocessing.Process(target=px4_peer, args=(port,), daemon=True)
+        for port in flight.ports.values()
+    ]
+    for peer in peers:
+        peer.start()
+    flight.runner.run(100)  # the first answers, and caches
+    begin, spent = time.perf_counter(), time.thread_time()
+    flight.runner.run(100 + round(seconds / 0.002))
+    wall, spent = time.perf_counter() - begin, time.thread_time() - spent
+    for bridge in flight.bridges.values():
+        bridge.close()
+    for peer in peers:
+        peer.terminate()
+        peer.join()
+    return {
+        'real_time_factor': seconds / wall,
+        'us_per_exchange_and_vehicle': spent / (seconds * 250 * count) * 1e6,
+    }
+
+
 def main() -> None:
     """Measure and write the result."""
     options = arguments(__doc__, 'fleet')
@@ -160,12 +192,16 @@ def main() -> None:
         folder = Path(name)
         costs = {model: cost(model, folder, 5 if options.quick else 25) for model in MODELS}
         ten = node(folder, 10.0 if options.quick else 60.0)
+        seconds = 2.0 if options.quick else 10.0
+        px4 = {str(count): lockstep(count, folder, seconds) for count in (1, 2, 4, 8)}
     for model, ways in costs.items():
         for way, rows in ways.items():
             shown = ', '.join(f'{n}: {r["us_per_vehicle_step"]:.2f}' for n, r in rows.items())
             print(f'{model}, {way}: {shown} us; 50 over one {rows["50"]["ratio"]:.3f}')
     print(f'node with {VEHICLES}: {ten["real_time_factor"]:.1f} times real time')
-    write(options.json, {'target_ratio': TARGET, 'cost': costs, 'node': ten})
+    for count, row in px4.items():
+        print(f'{count} PX4 in one lockstep: {row["real_time_factor"]:.1f} times real time')
+    write(options.json, {'target_ratio': TARGET, 'cost': costs, 'node': ten, 'lockstep': px4})
 
 
 if __name__ == '__main__':
