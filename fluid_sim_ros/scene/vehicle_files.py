@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed, printable
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.schema.base import parse
 from fluid_sim_ros.schema.scene import VehicleFile
@@ -36,10 +36,10 @@ def model_file(name: str, scene_path: Path, where: str) -> Path:
     path = (scene_path.parent / name).resolve()
     if not name.endswith(('.xml', '.mjcf')):
         path = models_folder() / f'{name}.xml'
-    if not path.is_file():
+    if not _is_file(path):
         known = sorted(p.stem for p in models_folder().glob('*.xml'))
         raise ConfigError(
-            f"{where}: no model '{name}'{did_you_mean(name, known)} "
+            f"{where}: no model '{printable(name)}'{did_you_mean(name, known)} "
             f'models: {listed(known)}; '
             'or give the path of an MJCF file, relative to this file'
         )
@@ -71,10 +71,17 @@ def vehicle_file(name: str, scene_path: Path) -> VehicleFile:
     folder = config_folder() / 'vehicles'
     beside = scene_path.parent / name
     path = beside if name.endswith(('.yaml', '.yml')) else folder / f'{name}.yaml'
-    if not path.is_file():
+    if not _is_file(path):
         known = sorted(p.stem for p in folder.glob('*.yaml'))
         raise ConfigError(
-            f"{scene_path}: vehicle file '{name}' is not known{did_you_mean(name, known)} "
+            f"{scene_path}: vehicle file '{printable(name)}' is not known{did_you_mean(name, known)} "
             f'vehicles: {listed(known)}'
         )
     return parse(VehicleFile, read_yaml(path), path)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name that no file can have
+        return False

@@ -40,6 +40,7 @@ NOT_RUN = {
     "fluid_sim run x500_ground --autopilot ardupilot --exec '": 'needs ArduPilot',
     'PX4_SYS_AUTOSTART=10016': 'needs PX4',
     "fluid_sim run x500_ground --autopilot px4 --exec '": 'needs PX4',
+    "fluid_sim run my_fleet.yaml --exec '": 'needs PX4',
     '.venv/bin/pip install': 'changes the environment',
     'fluid_sim sweep config/sweeps/x500_gust.yaml --ray local': 'needs the extra sweep, as said',
     'fluid_sim sweep FILE.yaml --device cuda:0': 'needs a GPU and the extra warp, as said',
