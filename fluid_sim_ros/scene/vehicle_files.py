@@ -74,7 +74,8 @@ def vehicle_file(name: str, scene_path: Path) -> VehicleFile:
     if not _is_file(path):
         known = sorted(p.stem for p in folder.glob('*.yaml'))
         raise ConfigError(
-            f"{scene_path}: vehicle file '{printable(name)}' is not known{did_you_mean(name, known)} "
+            f"{scene_path}: vehicle file '{printable(name)}' is not known"
+            f'{did_you_mean(name, known)} '
             f'vehicles: {listed(known)}'
         )
     return parse(VehicleFile, read_yaml(path), path)
