@@ -47,7 +47,8 @@ class Shot:
         Vehicle and what drives its joints.
     strobe
         Geom that is drawn at several times: name, interval [s], count; the camera then looks at
-        the middle of them from ``distance`` [m] and ``azimuth``, ``elevation`` [deg].
+        the middle of them from ``distance`` [m] and ``azimuth``, ``elevation`` [deg]; without it
+        and with a distance, at the middle of all vehicles.
 
     """
 
@@ -80,6 +81,7 @@ SHOTS = {
     'remus100': Shot(0.0),
     'bluerov2_tether': Shot(0.0),
     'x500_slung_load': Shot(0.0),
+    'fleet_mixed': Shot(0.0, distance=6.5, azimuth=80.0, elevation=-8.0),
 }
 
 
@@ -90,6 +92,9 @@ def still(name: str) -> Image.Image:
     places = list(run(simulation, shot))
     model, data = simulation.model, simulation.data
     mujoco.mj_forward(model, data)
+    if shot.distance and not shot.strobe:
+        bases = [vehicle.body_id for vehicle in simulation.vehicles.values()]
+        places = [(data.xpos[base], data.xmat[base]) for base in bases]
     option = mujoco.MjvOption()
     option.geomgroup[:] = [1, 1, 1, 0, 0, 0]  # bodies, not collision or fluid shapes
     # drawn at twice the size, for smooth edges
@@ -130,7 +135,7 @@ def run(simulation: Simulation, shot: Shot) -> Iterator[tuple[np.ndarray, np.nda
 
 def camera(shot: Shot, places: list[tuple[np.ndarray, np.ndarray]]) -> str | mujoco.MjvCamera:
     """Return the model's tracking camera, or one that sees all the strobed places."""
-    if not shot.strobe:
+    if not places:
         return 'track'
     positions = np.array([position for position, _ in places])
     view = mujoco.MjvCamera()
