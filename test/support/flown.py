@@ -26,7 +26,8 @@ def x500_table(seconds=4.0, every=5, seed=3, noise=None):
     for step in range(steps):
         time = step * simulation.timestep
         wave = np.sin(2 * np.pi * np.array([0.7, 1.1, 0.3, 0.5, 0.9, 0.4]) * time + phase)
-        thrust = hover * (1 + 0.1 * wave[0]) + _held(data, 0.5 * wave[2:4])
+        climb = 1 + 0.1 * wave[0] - 0.05 * (data.qpos[2] - 30) - 0.05 * data.qvel[2]
+        thrust = hover * climb + _held(data, 0.5 * wave[2:4], wave[1])
         simulation.set_thrust('x500', thrust)
         if step % every == 0:
             q, v = data.qpos[:7].copy(), data.qvel[:6].copy()
@@ -36,14 +37,14 @@ def x500_table(seconds=4.0, every=5, seed=3, noise=None):
     return _columns(rows, rng, noise or {})
 
 
-def _held(data, tilt):
+def _held(data, tilt, yaw):
     """Return thrusts that turn the x500 to a roll and a pitch [rad], and damp it [N]."""
     w, x, y, z = data.qpos[3:7]
-    off = np.array([tilt[0] - 2 * w * x, tilt[1] - 2 * w * y, -2 * w * z])
+    off = np.array([tilt[0] - 2 * w * x, tilt[1] - 2 * w * y, 0.5 * yaw - 2 * w * z])
     want = 3.0 * off - 0.6 * data.qvel[3:6]
     front, left = np.array([1, -1, 1, -1]), np.array([-1, 1, 1, -1])
-    turns = np.array([1, 1, -1, -1])  # m1, m2 turn counter-clockwise: more of them yaws the hull
-    return want[0] * left - want[1] * front - 0.3 * want[2] * turns
+    turns = np.array([1, 1, -1, -1])  # m1, m2 turn counter-clockwise, and the hull the other way
+    return want[0] * left - want[1] * front - 0.5 * want[2] * turns
 
 
 def _columns(rows, rng, noise):

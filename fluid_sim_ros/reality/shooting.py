@@ -1,0 +1,225 @@
+"""
+Multiple shooting: windows of flights that each start at a state of their own.
+
+The unknowns are the parameters, shared, and the state at each window's begin. The begin is
+measured with noise like everything else: a window that had to start there would take the noise
+for a force. For given parameters the states of the windows do not touch each other, so that they
+are taken out of the normal equations window by window (a Schur complement), and only the
+parameters are left.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from fluid_sim_ros.flights.units import rotations
+from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.reality.driven import Driven
+from fluid_sim_ros.reality.flying import Flyer
+from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, Windows, lead_in
+
+#: Numbers of a state's error: position, rotation vector, velocity, rates.
+SIZE = 12
+#: Steps of the differences: of a parameter in its scale; of a state [m], [rad], [m/s], [rad/s].
+_STEP = 1e-4
+_STATE_STEPS = np.repeat([1e-5, 1e-5, 1e-4, 1e-4], 3)
+
+
+def error_vectors(found: Array, wanted: Array) -> Array:
+    """
+    Return errors as vectors, shape (..., 12).
+
+    Parameters
+    ----------
+    found, wanted
+        States, shape (..., 13).
+
+    """
+    turn = rotations(wanted[..., ATTITUDE].reshape(-1, 4)).inv()
+    off = (turn * rotations(found[..., ATTITUDE].reshape(-1, 4))).as_rotvec()
+    return np.concatenate([
+        found[..., POSITION] - wanted[..., POSITION], off.reshape(*found.shape[:-1], 3),
+        found[..., VELOCITY] - wanted[..., VELOCITY], found[..., RATES] - wanted[..., RATES],
+    ], axis=-1)  # fmt: skip
+
+
+def moved(states: Array, by: Array) -> Array:
+    """
+    Return states moved by error vectors, shape (w, 13).
+
+    Parameters
+    ----------
+    states
+        Shape (w, 13).
+    by
+        Shape (w, 12) or (12,).
+
+    """
+    out = states.copy()
+    by = np.broadcast_to(by, (len(states), SIZE)).copy()
+    out[:, POSITION] += by[:, :3]
+    turn = rotations(states[:, ATTITUDE])
+    turned = turn * turn.from_rotvec(by[:, 3:6])
+    out[:, ATTITUDE] = np.roll(turned.as_quat(), 1, axis=1)
+    out[:, VELOCITY] += by[:, 6:9]
+    out[:, RATES] += by[:, 9:12]
+    return out
+
+
+@dataclass
+class Shots:
+    """
+    The windows of one flight in a fit.
+
+    Attributes
+    ----------
+    windows
+        They.
+    after
+        Times in a window at which the state is compared [s], the first at 0, shape (m,).
+    wanted
+        Measured then, shape (w, m, 13).
+    start
+        The states that the windows start at, shape (w, 13).
+
+    """
+
+    windows: Windows
+    after: Array
+    wanted: Array
+    start: Array
+
+    @classmethod
+    def of(cls, windows: Windows, sample: float) -> 'Shots':
+        """
+        Return the shots of windows, starting at the measured states.
+
+        Parameters
+        ----------
+        windows
+            Of a flight.
+        sample
+            Distance of the compared states [s].
+
+        """
+        count = max(1, int(windows.length / sample + 1e-9))
+        after = np.arange(count + 1, dtype=np.float64) * sample
+        wanted = windows.measured(after)
+        return cls(windows, after, wanted, wanted[:, 0].copy())
+
+
+@dataclass(frozen=True)
+class Linear:
+    """Residuals of one flight's windows, and their derivatives: (w, n), (w, n, p), (w, n, 12)."""
+
+    residual: Array
+    by_parameter: Array
+    by_state: Array
+
+
+class Shooter:
+    """
+    One flight flown for a fit, in one thread.
+
+    Parameters
+    ----------
+    shots
+        Its windows.
+    weights
+        1/sigma of the 12 errors.
+
+    """
+
+    def __init__(self, shots: Shots, weights: Array) -> None:
+        self.shots, self.weights = shots, weights
+        self._by_state: Array | None = None
+        self._spun: Array | None = None
+
+    def residual(self, driven: Driven, start: Array | None = None) -> Array:
+        """
+        Return weighted errors of all windows, shape (w, n).
+
+        Parameters
+        ----------
+        driven
+            The model, with its parameters.
+        start
+            States at the begins; None: those of the shots.
+
+        """
+        flyer = Flyer(driven, 1)
+        return self._fly(flyer, self.shots.start if start is None else start, self._spin(flyer))
+
+    def linear(
+        self, driven: Driven, others: Sequence[Driven], steps: Sequence[float], fresh: bool,
+        pool: ThreadPoolExecutor,
+    ) -> Linear:  # fmt: skip
+        """
+        Return residuals and their derivatives.
+
+        Parameters
+        ----------
+        driven
+            The model at the present parameters.
+        others
+            At each parameter moved by its step.
+        steps
+            They.
+        fresh
+            Whether the derivatives by the states are taken anew.
+        pool
+            Threads; each model is flown in one.
+
+        Returns
+        -------
+        Linear
+            Of this flight.
+
+        """
+        start = self.shots.start
+        flyer = Flyer(driven, 1)
+        spun = self._spin(flyer)
+        base = self._fly(flyer, start, spun)
+        later = [pool.submit(self.residual, other) for other in others]
+        if fresh or self._by_state is None:
+
+            def along(i: int) -> Array:
+                by = np.zeros(SIZE)
+                by[i] = _STATE_STEPS[i]
+                found = self._fly(Flyer(driven, 1), moved(start, by), spun)
+                change: Array = (found - base) / _STATE_STEPS[i]
+                return change
+
+            self._by_state = np.stack(list(pool.map(along, range(SIZE))), axis=2)
+        columns = [(f.result() - base) / step for f, step in zip(later, steps, strict=True)]
+        by_parameter = np.stack(columns, axis=2) if columns else np.zeros((*base.shape, 0))
+        return Linear(base, by_parameter, self._by_state)
+
+    def _spin(self, flyer: Flyer) -> Array | None:
+        before = lead_in(flyer.driven, flyer.timestep)
+        if not before:
+            return None
+        windows = self.shots.windows
+        lead = windows.controls(flyer.driven, flyer.timestep, before)
+        return flyer.spin_up(
+            flyer.states(self.shots.start, None, None), lead[:, : round(before / flyer.timestep)]
+        )
+
+    def _fly(self, flyer: Flyer, start: Array, spun: Array | None) -> Array:
+        shots, step = self.shots, flyer.timestep
+        every = [max(1, round(seconds / step)) for seconds in shots.after[1:]]
+        controls = shots.windows.controls(flyer.driven, step)[:, : every[-1]]
+        wind = shots.windows.flight.signals.get('wind')
+        flow = None
+        if wind is not None:
+            flow = wind.between(shots.windows.begins + 0.5 * shots.windows.length)
+            if not flyer.has_medium:
+                flyer.model.opt.wind[:] = flow.mean(axis=0)
+                flow = None
+        found = np.concatenate(
+            [start[:, None], flyer.fly(flyer.states(start, flow, spun), controls, every)], axis=1
+        )
+        off: Array = np.nan_to_num(error_vectors(found, shots.wanted) * self.weights, nan=1e6)
+        return off.reshape(len(start), -1)
