@@ -27,7 +27,7 @@ class Counters:
     malformed
         Messages or packets that could not be read, or made no sense.
     strangers
-        ArduPilot: packets of another sender than the autopilot that is being answered.
+        ArduPilot: packets of another sender than the autopilot, where the system let them pass.
     gone
         How often an autopilot that had answered fell silent.
 

@@ -1,5 +1,11 @@
-"""What Linux tells of the TCP sockets of this host: who listens, and what a peer has not read."""
+"""
+What Linux alone knows of sockets, or does with them.
 
+Who listens, what a peer has not read; and a datagram socket that is connected to nobody again.
+"""
+
+import ctypes
+import os
 import socket
 import struct
 from collections.abc import Iterator
@@ -30,6 +36,28 @@ def unread(peer: tuple[str, int], ours: tuple[str, int]) -> int | None:
         if [local, remote] == ends:
             return int(queues.partition(':')[2], 16)
     return None
+
+
+def disconnect(connected: socket.socket) -> None:
+    """
+    Have a datagram socket hear everybody again; its own port stays.
+
+    Parameters
+    ----------
+    connected
+        A socket that ``connect`` has bound to a peer.
+
+    Raises
+    ------
+    OSError
+        Where the system cannot do that.
+
+    """
+    nobody = struct.pack('=H14x', socket.AF_UNSPEC)  # connect(2): dissolves the association
+    library = ctypes.CDLL(None, use_errno=True)
+    if library.connect(connected.fileno(), nobody, len(nobody)):
+        number = ctypes.get_errno()
+        raise OSError(number, os.strerror(number))
 
 
 def is_listening(port: int) -> bool:

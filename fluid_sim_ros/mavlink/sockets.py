@@ -11,6 +11,8 @@ from fluid_sim_ros.errors import ConfigError
 #: A peer that answers within this time is waited for without sleeping [s]: to fall asleep and wake
 #: takes as long, and leaves a processor that is slower for a while.
 _QUICK = 200e-6
+#: Connections that the system keeps until they are taken in; idle ones leave room for more.
+_QUEUE = 128
 
 
 def listen(kind: Any, address: str, port: int, what: str) -> socket.socket:
@@ -44,7 +46,7 @@ def listen(kind: Any, address: str, port: int, what: str) -> socket.socket:
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind((address, port))
         if kind == socket.SOCK_STREAM:
-            listener.listen(1)
+            listener.listen(_QUEUE)
     except (OSError, OverflowError) as error:
         listener.close()
         reason = getattr(error, 'strerror', None) or error

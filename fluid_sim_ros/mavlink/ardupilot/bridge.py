@@ -217,6 +217,7 @@ class ArduPilotBridge(AutopilotLink):
         if sender != self._peer and not self._adopt(sender, now):
             return None
         self._heard_at = now
+        self._port.bind_to(sender)
         if packet.count == self._count:
             self.counters.repeated += 1
             if self._reply:
@@ -273,6 +274,8 @@ class ArduPilotBridge(AutopilotLink):
         else:
             if not self._silence.reported:
                 self._silent_at = self._heard_at
+            if now - self._heard_at >= REPORT_AFTER:
+                self._port.bind_to(None)  # another process may be its successor
             self._silence.lasts(now - self._heard_at)
 
 

@@ -2,11 +2,14 @@
 The port that ArduPilot sends its packets to.
 
 It waits no longer than it is told, reads bounded datagrams, and never raises for what a peer does.
+While a peer is there the system drops what others send: a flood neither costs time nor fills the
+queue.
 """
 
 import socket
 from typing import Any
 
+from fluid_sim_ros.mavlink import kernel_sockets
 from fluid_sim_ros.mavlink.sockets import Watch, listen
 
 #: Bytes and their sender.
@@ -37,6 +40,28 @@ class UdpPort:
         self.port: int = self._socket.getsockname()[1]
         self._longest = longest
         self._watch = Watch(self._socket)
+        self._bound_to: Any = None
+
+    def bind_to(self, peer: Any) -> None:
+        """
+        Hear one peer alone.
+
+        Parameters
+        ----------
+        peer
+            Address that ``receive`` gave; None: hear everybody again.
+
+        """
+        if peer == self._bound_to:
+            return
+        self._bound_to = peer
+        try:
+            if peer is None:
+                kernel_sockets.disconnect(self._socket)
+            else:
+                self._socket.connect(peer)
+        except OSError:  # its network has gone; then everybody is heard, and asked who they are
+            return
 
     def receive(self, timeout: float) -> Datagram | None:
         """

@@ -78,6 +78,7 @@ class Px4Bridge(AutopilotLink):
         self.port = self._server.port
         self._locked = False  # it has answered: wait for it
         self._flown = False  # an autopilot was here before
+        self._heard = False  # one of them has spoken
         self._armed = False
         self._sent_us = 0
         self._answered_us = 0
@@ -100,6 +101,9 @@ class Px4Bridge(AutopilotLink):
 
     def meet(self, simulation: Simulation) -> bool:
         """Send the sensors at every exchange and wait, within bounds, for what they lead to."""
+        if reason := self._server.displaced():
+            self._server.disconnect()
+            self._lost(f'PX4 at {reason}')
         if not self._server.connected and not self._greet():
             return False
         now_us = self._now_us(simulation)
@@ -175,7 +179,7 @@ class Px4Bridge(AutopilotLink):
     def _greet(self) -> bool:
         """Wait a short while for a connection; True when one is new and time may go on."""
         if not self._server.accept(SLICE):
-            if self._flown:
+            if self._heard:
                 self._silence.absent(time.monotonic() - self._lost_at)
             return False
         self.counters.connections += 1
@@ -222,6 +226,7 @@ class Px4Bridge(AutopilotLink):
             self._lost()
             return False
         if data:
+            self._heard = True
             received = self._reader.receive(data)
             for fault in received.faults:
                 self._malformed(fault)
@@ -272,13 +277,11 @@ class Px4Bridge(AutopilotLink):
             self._commands.set(*self._actuators.rest)
         return given_up
 
-    def _lost(self) -> None:
+    def _lost(self, how: str = 'PX4 has closed the connection') -> None:
         self.counters.disconnections += 1
         self._lost_at = time.monotonic()
         self._silence.forget()
         self._reading.forget()
         self._commands.set(*self._actuators.rest)
         self._armed = False
-        self._surroundings.report(
-            'gone', f'PX4 has closed the connection; listening on port {self.port}'
-        )
+        self._surroundings.report('gone', f'{how}; listening on port {self.port}')

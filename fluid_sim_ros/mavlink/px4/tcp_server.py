@@ -7,19 +7,23 @@ a peer that goes away, or sends too fast or nothing, is a state.
 
 import select
 import socket
+import time
 
 from fluid_sim_ros.mavlink import kernel_sockets
+from fluid_sim_ros.mavlink.px4 import lobby
 from fluid_sim_ros.mavlink.sockets import Watch, listen
 
 #: Largest portion read at once [bytes].
 _PORTION = 65536
 #: What a peer that does not read may leave unsent on our side before it counts as stuck [bytes].
 _LARGEST_BACKLOG = 65536
+#: Wall time between two looks at who else has come [s].
+_LOOK_PERIOD = 0.1
 
 
 class TcpServer:
     """
-    Accepts one client at a time on a port; further ones wait in the queue, or are refused.
+    Serves one client at a time on a port; further ones wait (``Lobby``).
 
     Parameters
     ----------
@@ -45,7 +49,11 @@ class TcpServer:
         self.port: int = self._listener.getsockname()[1]
         self._client: socket.socket | None = None
         self._watch: Watch | None = None
+        self._lobby = lobby.Lobby(self._listener)
         self._backlog = b''
+        self._spoke = False
+        self._asked_at: float | None = None  # since when it owes a word [s]
+        self._look_at = 0.0
         self.peer = ''
 
     @property
@@ -83,19 +91,52 @@ class TcpServer:
             Whether there is a client.
 
         """
-        if self._client is None and select.select([self._listener], [], [], timeout)[0]:
-            try:
-                client, peer = self._listener.accept()
-            except OSError:  # it went away again
-                return False
-            client.setblocking(False)
+        if self._client is not None:
+            return True
+        if not self._meet():
+            select.select([self._listener], [], [], timeout)
+            self._meet()
+        return self._client is not None
+
+    def _meet(self) -> bool:
+        self._lobby.look()
+        client = self._lobby.next()
+        if client is None:
+            return False
+        try:
+            peer = client.getpeername()
             client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             # beyond this a peer does not read: that shall show
             client.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _LARGEST_BACKLOG)
-            self._client, self._backlog = client, b''
-            self.peer = f'{peer[0]}:{peer[1]}'
-            self._watch = Watch(client)
-        return self._client is not None
+        except OSError:  # it went away again
+            client.close()
+            return False
+        self._client, self._backlog = client, b''
+        self._spoke, self._asked_at = False, time.monotonic()
+        self.peer = f'{peer[0]}:{peer[1]}'
+        self._watch = Watch(client)
+        return True
+
+    def displaced(self) -> str:
+        """
+        Return why the client loses its place, or ''; asked at each exchange.
+
+        Who has never said a word gives way to one that speaks, and goes after 5 s in any case; who
+        has spoken and owes an answer for 5 s gives way.
+        """
+        now = time.monotonic()
+        if self._client is None or self._watch is None or now < self._look_at:
+            return ''
+        self._look_at = now + _LOOK_PERIOD
+        self._lobby.look()
+        if self._watch.readable(0.0) or self._asked_at is None:
+            return ''
+        silent = now - self._asked_at >= lobby.QUIET
+        if not self._spoke and (silent or self._lobby.speaks):
+            return f'{self.peer} has said nothing'
+        if silent and self._lobby.speaks:
+            return f'{self.peer} is silent, and another speaks'
+        return ''
 
     def send(self, data: bytes = b'') -> None:
         """
@@ -109,6 +150,8 @@ class TcpServer:
         """
         if self._client is None:
             return
+        if self._asked_at is None:
+            self._asked_at = time.monotonic()
         if self._backlog:
             data = self._backlog + data
         try:
@@ -149,6 +192,7 @@ class TcpServer:
         if not data:
             self.disconnect()
             return None
+        self._spoke, self._asked_at = True, None
         return data
 
     def disconnect(self) -> None:
@@ -161,4 +205,5 @@ class TcpServer:
     def close(self) -> None:
         """Close everything."""
         self.disconnect()
+        self._lobby.close()
         self._listener.close()

@@ -50,16 +50,19 @@ def test_a_new_process_finds_its_vehicle_at_the_start(flight, px4):
 
 def disconnect(flight, times, seed=3):
     rng, counters = random.Random(seed), flight.bridge.counters
+    served = 0
     for _ in range(times):
         px4 = Px4(flight.port, silent=rng.randrange(3))
-        for _ in range(rng.randrange(4)):
+        exchanges = rng.randrange(4)
+        for _ in range(exchanges):
             px4.exchange(IDLE)
+        served += bool(exchanges)
         if rng.random() < 0.5:  # with bytes unread: a reset instead of an orderly end
             px4.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b'\1\0\0\0\0\0\0\0')
         px4.close()
-        # one that was closed before it was accepted may be counted later
         assert waited(lambda: counters.disconnections == counters.connections)
-    assert counters.connections == counters.disconnections >= times * 0.9
+    # one that went away before it was served is not counted
+    assert times >= counters.connections == counters.disconnections >= served > times / 2
     last = Px4(flight.port, silent=0)
     last.exchange(IDLE)
     assert last.rules.first == 4000

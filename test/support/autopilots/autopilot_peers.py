@@ -29,9 +29,11 @@ def free_port(protocol: str) -> int:
 def waited(condition, seconds=10.0):
     """Poll until a condition holds; return whether it does."""
     deadline = time.monotonic() + seconds
-    while not condition() and time.monotonic() < deadline:
+    while not condition():
+        if time.monotonic() > deadline:
+            return False
         time.sleep(0.002)
-    return condition()
+    return True
 
 
 class BridgedFlight:
