@@ -6,7 +6,8 @@ open logs, each with its share; YAML, NPZ, NetCDF, CSV and MJCF files are loaded
 is a result, or an error of ours on one printable line; wrong is a traceback, a crash, more than
 10 s of processor time (or a minute of wall time), memory beyond four times the file and 256 MiB, a
 file touched outside of the working folder, or text that a terminal acts on. Fixed seeds.
-Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--json PATH]``.
+Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--divide N]``;
+the result states how many were planned and how many of them were judged.
 """
 
 import json
@@ -128,8 +129,11 @@ def main() -> None:
     """Measure and write the result."""
     kinds = ('log', *KINDS)
     options = arguments(
-        __doc__, 'hostile_files', kinds, more={'portion': 'of a process: KIND FIRST LAST'}
-    )
+        __doc__, 'hostile_files', kinds,
+        more={
+            'portion': 'of a process: KIND FIRST LAST', 'divide': 'judge one part in so many',
+        },
+    )  # fmt: skip
     if options.portion:
         kind, first, last = options.portion.split()
         judge_portion(kind, int(first), int(last))
@@ -140,7 +144,8 @@ def main() -> None:
     result: dict[str, Any] = {}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for kind in options.only or kinds:
-            count = (LOGS if kind == 'log' else FILES) // (QUICK if options.quick else 1)
+            planned = LOGS if kind == 'log' else FILES
+            count = planned // (QUICK if options.quick else int(options.divide or 1))
             firsts = range(0, count, PORTION)
             portions = pool.map(
                 lambda first, kind=kind, count=count: run_portion(
@@ -148,7 +153,8 @@ def main() -> None:
                 ),
                 firsts,
             )
-            result[kind] = summary([line for portion in portions for line in portion])
+            found = [line for portion in portions for line in portion]
+            result[kind] = {'planned': planned, **summary(found)}
             print(kind, {key: result[kind][key] for key in ('files', 'outcomes', 'most_seconds')})
     result = kept | result
     write(options.json, {
