@@ -1,5 +1,6 @@
 """The rows of a sweep on disk: Parquet parts as they come, one table at the end."""
 
+import hashlib
 import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -95,7 +96,7 @@ class Results:
         """
         begin = int(rows[0]['run'])
         table = as_table(rows)
-        _write(table, self._parts / f'{begin:09d}.parquet')
+        _write(table, self._parts / f'{begin:09d}.parquet', with_digest=True)
         self._tables[begin] = table
 
     def finish(self) -> pa.Table:
@@ -162,15 +163,25 @@ def gaps(kept: Iterable[Portion], total: int) -> list[Portion]:
 def _read(path: Path) -> pa.Table | None:
     """Return a part, or None where it is not whole."""
     try:
-        table = pq.read_table(path)
-        return table if len(table) and int(path.stem) == table['run'][0].as_py() else None
-    except (pa.ArrowInvalid, OSError, KeyError, ValueError):
+        begin, _, digest = path.stem.partition('-')
+        if _digest(path) != digest:  # pages have checksums, names of columns do not
+            return None
+        table = pq.read_table(path, page_checksum_verification=True)
+        return table if len(table) and int(begin) == table['run'][0].as_py() else None
+    except (pa.ArrowException, OSError, KeyError, ValueError):
         return None
 
 
-def _write(table: pa.Table, path: Path) -> None:
+def _digest(path: Path) -> str:
+    with path.open('rb') as file:
+        return hashlib.file_digest(file, 'sha256').hexdigest()[:16]
+
+
+def _write(table: pa.Table, path: Path, with_digest: bool = False) -> None:
     unfinished = path.with_suffix('.unfinished')
-    pq.write_table(table, unfinished)
+    pq.write_table(table, unfinished, write_page_checksum=True)
+    if with_digest:  # in the name, so that file and checksum are there together or not at all
+        path = path.with_stem(f'{path.stem}-{_digest(unfinished)}')
     unfinished.replace(path)
 
 

@@ -1,6 +1,7 @@
 """Runs the portions of a sweep: on threads of this machine, or on workers of Ray."""
 
 import logging
+import os
 import socket
 import threading
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,6 +16,7 @@ from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
 #: How long an address may take to answer [s].
 _ANSWER_S = 5.0
+_LOOPBACK = '127.0.0.1'
 
 
 def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> Iterator[list[Row]]:
@@ -106,9 +108,12 @@ def on_ray(
     local = address == 'local'
     if not local:
         _check_address(address)
+    place = {'_node_ip_address': _LOOPBACK} if local else {}
+    if local:  # nothing leaves this host: neither sockets nor the statistics of Ray
+        os.environ.setdefault('RAY_USAGE_STATS_ENABLED', '0')
     try:
         ray.init(
-            address='local' if local else address, num_cpus=workers if local else None,
+            **place, address='local' if local else address, num_cpus=workers if local else None,
             include_dashboard=False if local else None, log_to_driver=False,
             logging_level=logging.ERROR,
         )  # fmt: skip
