@@ -113,7 +113,9 @@ class Coefficients:
 
 
 def coefficients_of(
-    request: Request, say: Callable[[str], None] = lambda line: None
+    request: Request,
+    say: Callable[[str], None] = lambda line: None,
+    file: MeshFile | None = None,
 ) -> Coefficients:
     """
     Return the hydrodynamic coefficients of a mesh file.
@@ -124,6 +126,8 @@ def coefficients_of(
         What is asked.
     say
         Takes a line of progress.
+    file
+        The mesh as read already; None: it is read.
 
     Returns
     -------
@@ -137,8 +141,9 @@ def coefficients_of(
 
     """
     _check(request)
-    say('reading the mesh')
-    file = read_mesh(request.mesh, request.unit)
+    if file is None:
+        say('reading the mesh')
+        file = read_mesh(request.mesh, request.unit)
     statics = statics_of(file.solid)
     _check_density(request, statics)
     say('added mass: panels and potential')

@@ -129,7 +129,7 @@ def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> N
                 f'{folder / name}: exists; give another --out, or --force to replace it'
             )
     with tempfile.TemporaryDirectory() as trial:  # what does not load is not left behind
-        drift = _drift(_write(texts, Path(trial))[0])
+        drift = drift_of(_write(texts, Path(trial))[0])
     paths = _write(texts, folder)
     return NewVehicle(design, paths[0], paths, drift)
 
@@ -144,8 +144,21 @@ def _write(texts: dict[str, str], folder: Path) -> tuple[Path, ...]:
     return tuple(folder / name for name in texts)
 
 
-def _drift(scene: Path) -> float:
-    """Return how far the scene's vehicle is from its start after the trial [m]."""
+def drift_of(scene: Path) -> float:
+    """
+    Return how far a scene's vehicle is from its start after the trial.
+
+    Parameters
+    ----------
+    scene
+        Its file.
+
+    Returns
+    -------
+    float
+        [m].
+
+    """
     simulation = Simulation(scene)
     start = simulation.data.qpos[:3].copy()
     simulation.step(round(TRIAL / simulation.timestep))

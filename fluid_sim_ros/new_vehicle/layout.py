@@ -155,7 +155,7 @@ def thrusters_of(
             f"--thrusters '{source}' is no preset{did_you_mean(source, PRESETS)} "
             f'allowed: {listed(PRESETS)}, or a YAML file'
         )
-    return [_complete(place, medium) for place in places]
+    return [complete_thruster(place, medium) for place in places]
 
 
 def _check(places: list[ThrusterPlace], path: Path) -> None:
@@ -176,8 +176,23 @@ def _check(places: list[ThrusterPlace], path: Path) -> None:
             )
 
 
-def _complete(place: ThrusterPlace, medium: Medium) -> Thruster:
-    """Fill in what a place leaves out."""
+def complete_thruster(place: ThrusterPlace, medium: Medium) -> Thruster:
+    """
+    Return a thruster with every number; what its place leaves out is guessed.
+
+    Parameters
+    ----------
+    place
+        Of a list.
+    medium
+        ``air`` or ``water``.
+
+    Returns
+    -------
+    Thruster
+        Its position as of the place.
+
+    """
     water = medium == 'water'
     highest = place.max_thrust
     reverse = place.max_reverse

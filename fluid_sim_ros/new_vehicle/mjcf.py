@@ -10,6 +10,7 @@ from fluid_sim_ros.new_vehicle.design import (
     Design,
 )
 from fluid_sim_ros.new_vehicle.layout import DENSITY, Thruster
+from fluid_sim_ros.new_vehicle.thruster_keys import instance_keys
 
 _HEAD = """<mujoco model="{name}">
   <!-- {name}, {mass} kg, {size} m, made by fluid_sim new-vehicle. A number with "guess" beside it
@@ -178,23 +179,7 @@ def _thrusters(design: Design) -> str:
 
 
 def _instance(thruster: Thruster, *, water: bool) -> str:
-    low, high = thruster.limits
-    speeds = [thruster.speed(high)] + ([-thruster.speed(low)] if low < 0 else [])
-    keys = {
-        'curve': 'quadratic',
-        'thrust_coefficient': _n(thruster.k),
-        'rad_s_max': _n(speeds),
-        'diameter': _n(thruster.diameter),
-    }
-    if any(thruster.lag):
-        keys['time_constant'] = _n(thruster.lag)
-    if thruster.spin:
-        keys |= {
-            'torque_ratio': _n(thruster.torque_ratio),
-            'spin': 'ccw' if thruster.spin > 0 else 'cw',
-        }
-    if water:  # by the density at the disc
-        keys |= {'fluid': 'local', 'density': _n(DENSITY['water'])}
+    keys = instance_keys(thruster, water=water)
     lines = ''.join(
         f'        <config key="{key}" value="{value}"/>\n' for key, value in keys.items()
     )

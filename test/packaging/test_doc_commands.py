@@ -57,6 +57,7 @@ SHORTER = {
     'fluid_sim run quadrotor --record': '--duration 1',
     'fluid_sim advise': '--budget 3',
     'fluid_sim hydro': '--panels 60',
+    'fluid_sim import': '--panels 60',
     'fluid_sim chart kirchhoff': '--timesteps 0.01 0.005 --rounds 1 --integrators RK4',
     'fluid_sim chart --from out/chart/kirchhoff.json --time-again': '--rounds 1',
     'fluid_sim stability drag': '--cells 2',
@@ -72,9 +73,13 @@ EARLIER = {
     'flight.mcap': 'fluid_sim run quadrotor --duration 1 --record flight.mcap',
     'bee/bee.yaml': 'fluid_sim new-vehicle bee --medium air --mass 1.6 --size .35 .35 .1 '
     '--thrusters quad',
+    'small_quad/small_quad.yaml': 'fluid_sim import models/examples/small_quad.urdf --answers '
+    'models/examples/small_quad_answers.yaml',
+    'frame_rov/frame_rov.yaml': 'fluid_sim import models/examples/frame_rov.urdf --answers '
+    'models/examples/frame_rov_answers.yaml --panels 60',
     'my_scene.yaml': 'cp config/scenes/sphere.yaml my_scene.yaml',
 }
-MAKERS = ('--record flight.mcap', 'new-vehicle bee')
+MAKERS = ('--record flight.mcap', 'new-vehicle bee', 'fluid_sim import')
 #: Run by `make test-full`, and by .ci/run in a step of their own.
 SHELL = [
     pytest.param(block, id=f'{block.page}:{block.line}', marks=pytest.mark.full)

@@ -1,8 +1,9 @@
 """
-The process that reads one mesh file: ``python -m ... FILE SCALE RESULT``.
+The process that reads one mesh file: ``python -m ... FILE SCALE RESULT [as_it_is]``.
 
-It limits its own memory and processor time, writes the repaired solid to RESULT (npz) and one line
-of JSON to standard output.
+It limits its own memory and processor time, writes the repaired solid to RESULT (npz), or with
+``as_it_is`` the triangles, and one line of JSON to standard output. SCALE 0: the unit that a DAE
+file states, else metres.
 """
 
 import json
@@ -39,7 +40,7 @@ def main() -> int:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (int(TIME_LIMIT), int(TIME_LIMIT)))
     try:
-        head = _read(path, scale, result)
+        head = (_read_as_it_is if sys.argv[4:] else _read)(path, scale, result)
     except ConfigError as error:
         head = {'error': str(error)}
     except MemoryError:
@@ -48,6 +49,40 @@ def main() -> int:
         head = {'missing': error.name}
     sys.stdout.write('\n' + json.dumps(head) + '\n')
     return 0
+
+
+def surface_of_file(path: Path, scale: float) -> tuple[Surface, float]:
+    """
+    Return the triangles of a mesh file as they are, in this very process.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    scale
+        Unit of its numbers [m]; 0: as the file states it, else metres.
+
+    Returns
+    -------
+    surface, scale
+        In metres, and the unit that was taken [m].
+
+    Raises
+    ------
+    ConfigError
+        If it is no mesh.
+
+    """
+    pieces, own = _pieces(path)
+    unit = scale or own
+    if not any(len(faces) for _, faces in pieces):
+        raise ConfigError('no triangles in it')
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
+    vertices = np.concatenate([vertices for vertices, _ in pieces])
+    faces = np.concatenate(
+        [faces + start for (_, faces), start in zip(pieces, starts, strict=True)]
+    )
+    return Surface(unit * vertices, faces), unit
 
 
 def solid_of_file(path: Path, scale: float) -> tuple[Solid, int]:
@@ -59,7 +94,7 @@ def solid_of_file(path: Path, scale: float) -> tuple[Solid, int]:
     path
         Of the file.
     scale
-        Unit of its numbers [m].
+        Unit of its numbers [m]; 0: as the file states it, else metres.
 
     Returns
     -------
@@ -72,30 +107,31 @@ def solid_of_file(path: Path, scale: float) -> tuple[Solid, int]:
         If it is no mesh, or no solid and cannot be made one.
 
     """
-    pieces = _pieces(path)
-    count = sum(len(faces) for _, faces in pieces)
-    if count == 0:
-        raise ConfigError('no triangles in it')
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
-    vertices = np.concatenate([vertices for vertices, _ in pieces])
-    faces = np.concatenate(
-        [faces + start for (_, faces), start in zip(pieces, starts, strict=True)]
-    )
-    return repaired(Surface(scale * vertices, faces)), count
+    surface, _ = surface_of_file(path, scale)
+    return repaired(surface), len(surface.faces)
+
+
+def _read_as_it_is(path: Path, scale: float, result: Path) -> dict[str, Any]:
+    surface, unit = surface_of_file(path, scale)
+    np.savez(result, vertices=surface.vertices, faces=surface.faces)
+    return {'triangles': len(surface.faces), 'unit': unit}
 
 
 def _read(path: Path, scale: float, result: Path) -> dict[str, Any]:
-    solid, count = solid_of_file(path, scale)
+    surface, unit = surface_of_file(path, scale)
+    solid = repaired(surface)
     frame = solid.frame
     np.savez(
         result, vertices=solid.surface.vertices, faces=solid.surface.faces, origin=frame.origin,
         rotation=frame.rotation, length=frame.length,
     )  # fmt: skip
-    return {'triangles': count, 'repairs': list(solid.repairs)}
+    return {
+        'triangles': len(surface.faces), 'repairs': list(solid.repairs), 'unit': unit,
+    }  # fmt: skip
 
 
-def _pieces(path: Path) -> list[tuple[Any, Any]]:
-    """Return vertices and faces of each mesh in the file, where the file's scene puts it."""
+def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
+    """Return vertices and faces of each mesh, where the file's scene puts it, and its unit [m]."""
     import trimesh
 
     logging.disable(logging.CRITICAL)
@@ -106,13 +142,14 @@ def _pieces(path: Path) -> list[tuple[Any, Any]]:
         nodes = list(scene.graph.nodes_geometry)
         if len(nodes) > _MOST_PIECES:
             raise ConfigError(f'{len(nodes)} meshes in it, at most {_MOST_PIECES} are read')
-        pieces, count = [], 0
+        pieces, count, unit = [], 0, 1.0
         for node in nodes:
             transform, name = scene.graph[node]
             mesh = scene.geometry[name]
             faces = getattr(mesh, 'faces', None)
             if faces is None or not len(faces):
                 continue
+            unit = _unit_of(mesh, path)
             count += len(faces)
             if count > MOST_TRIANGLES:
                 raise ConfigError(f'more than {MOST_TRIANGLES} triangles; export it with fewer')
@@ -136,7 +173,16 @@ def _pieces(path: Path) -> list[tuple[Any, Any]]:
         raise ConfigError(
             f'is no {path.suffix.lower().lstrip(".")} mesh ({type(error).__name__}: {reason})'
         ) from None
-    return pieces
+    return pieces, unit
+
+
+def _unit_of(mesh: Any, path: Path) -> float:
+    """Return the unit that a DAE file states, which trimesh hands on and does not apply [m]."""
+    words = str(mesh.metadata.get('units', '')).split(' ')
+    if path.suffix.lower() != '.dae' or words[-2:] != ['*', 'meters']:
+        return 1.0
+    unit = float(words[0])
+    return unit if np.isfinite(unit) and unit > 0 else 1.0
 
 
 if __name__ == '__main__':

@@ -20,6 +20,7 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.hydro.meshes.frame import Frame
 from fluid_sim_ros.hydro.meshes.repair import Solid
 from fluid_sim_ros.hydro.meshes.surface import Surface
+from fluid_sim_ros.physics.arrays import Array
 
 FORMATS = ('stl', 'obj', 'ply', 'glb', 'gltf', 'dae', 'off')
 UNITS = {'m': 1.0, 'cm': 0.01, 'mm': 0.001, 'in': 0.0254, 'ft': 0.3048}
@@ -89,14 +90,47 @@ def read_mesh(path: Path, unit: str | None = None) -> MeshFile:
     _check_file(path)
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / 'solid.npz'
-        head = _in_a_process(path, UNITS[unit or 'm'], result)
+        head = _in_a_process(path, UNITS[unit] if unit else 0.0, result)
         with np.load(result) as arrays:
             surface = Surface(arrays['vertices'], arrays['faces'])
             frame = Frame(arrays['origin'], arrays['rotation'], float(arrays['length']))
     solid = Solid(surface, frame, tuple(head['repairs']))
     if unit is None:
-        _check_size(path, solid)
-    return MeshFile(path, solid, int(head['triangles']), unit or 'm', solid.repairs)
+        _check_size(path, solid.in_mesh_axes().size())
+    taken = unit or {1.0: 'm'}.get(head['unit'], f'units of {head["unit"]:g} m, as the file says')
+    return MeshFile(path, solid, int(head['triangles']), taken, solid.repairs)
+
+
+def read_triangles(path: Path, unit: str | None = None) -> Surface:
+    """
+    Return the triangles of a mesh file as they are, for looks: open, crossing or inside out.
+
+    Parameters
+    ----------
+    path
+        As of `read_mesh`.
+    unit
+        As of `read_mesh`, and no size is asked about.
+
+    Returns
+    -------
+    Surface
+        In metres.
+
+    Raises
+    ------
+    ConfigError
+        If it is no such file, or larger than what is read.
+
+    """
+    if unit is not None and unit not in UNITS:
+        raise ConfigError(f"unit '{unit}': unknown; allowed: {listed(UNITS)}")
+    _check_file(path)
+    with tempfile.TemporaryDirectory() as folder:
+        result = Path(folder) / 'triangles.npz'
+        _in_a_process(path, UNITS[unit] if unit else 0.0, result, 'as_it_is')
+        with np.load(result) as arrays:
+            return Surface(arrays['vertices'], arrays['faces'])
 
 
 def _check_file(path: Path) -> None:
@@ -124,8 +158,7 @@ def _check_file(path: Path) -> None:
         raise ConfigError(f'{path}: is empty')
 
 
-def _check_size(path: Path, solid: Solid) -> None:
-    size = solid.in_mesh_axes().size()
+def _check_size(path: Path, size: Array) -> None:
     box = ' x '.join(f'{x:.4g}' for x in size)
     if size.max() > _LARGE:
         raise ConfigError(
@@ -139,11 +172,12 @@ def _check_size(path: Path, solid: Solid) -> None:
         )
 
 
-def _in_a_process(path: Path, scale: float, result: Path) -> dict[str, Any]:
+def _in_a_process(path: Path, scale: float, result: Path, *mode: str) -> dict[str, Any]:
     """Let the file be read and repaired; return what was said about it."""
     from fluid_sim_ros.hydro.meshes import reader_process
 
-    command = [sys.executable, '-m', reader_process.__name__, str(path), repr(scale), str(result)]
+    command = [sys.executable, '-m', reader_process.__name__, str(path), repr(scale), str(result),
+               *mode]  # fmt: skip
     # one thread: each reserves memory, and none is needed
     environment = os.environ | {'OMP_NUM_THREADS': '1', 'OPENBLAS_NUM_THREADS': '1'}
     try:

@@ -137,9 +137,25 @@ def write_obj(surface: Surface, path: Path) -> None:
     path.write_text('\n'.join([*points, *corners]) + '\n', encoding='ascii')
 
 
+def stl_bytes(surface: Surface) -> bytes:
+    """
+    Return a mesh as binary STL, in single precision as that format has it.
+
+    Parameters
+    ----------
+    surface
+        Any.
+
+    """
+    kind = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('rest', '<u2')])
+    record = np.zeros(len(surface.faces), dtype=kind)
+    record['corners'] = surface.triangles
+    return b'fluid_sim_ros'.ljust(80) + np.uint32(len(record)).tobytes() + record.tobytes()
+
+
 def write_stl(surface: Surface, path: Path) -> None:
     """
-    Write a mesh as binary STL, in single precision as that format has it.
+    Write a mesh as binary STL.
 
     Parameters
     ----------
@@ -149,8 +165,4 @@ def write_stl(surface: Surface, path: Path) -> None:
         Of the file.
 
     """
-    kind = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('rest', '<u2')])
-    record = np.zeros(len(surface.faces), dtype=kind)
-    record['corners'] = surface.triangles
-    head = b'fluid_sim_ros'.ljust(80) + np.uint32(len(record)).tobytes()
-    path.write_bytes(head + record.tobytes())
+    path.write_bytes(stl_bytes(surface))

@@ -1,0 +1,1 @@
+"""Makes the files of a vehicle from a URDF, an MJCF model or a mesh."""

@@ -1,0 +1,76 @@
+"""
+The process that expands a xacro file: ``python -m ... FILE [PACKAGE FOLDER ...]``.
+
+Memory and time are limited; files are read from the file's folder, its package and the packages.
+"""
+
+import resource
+import sys
+from pathlib import Path
+from typing import Any
+
+from fluid_sim_ros.new_vehicle.importing.mesh_paths import package_folder, roots_of
+
+#: Memory [bytes] and processor time [s].
+_MEMORY, _TIME = 2**31, 20
+
+
+def main() -> int:
+    """
+    Write the URDF to standard output.
+
+    Returns
+    -------
+    int
+        1 where it does not expand: the last line of standard error says why.
+
+    """
+    path, packages = Path(sys.argv[1]).resolve(), [Path(word) for word in sys.argv[2:]]
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (_TIME, _TIME))
+    try:
+        text = _expanded(path, packages)
+    except Exception as error:  # noqa: BLE001  a xacro file raises anything
+        words = ' '.join(f'{type(error).__name__}: {error}'.split())
+        sys.stderr.write(f'\n{words[:300]}\n')
+        return 1
+    sys.stdout.write(text)
+    return 0
+
+
+def _expanded(path: Path, packages: list[Path]) -> str:
+    import xacro  # type: ignore[import-untyped]
+    from xacro import substitution_args
+
+    allowed = roots_of(path, packages)
+
+    def checked(name: str) -> None:
+        place = Path(name).resolve()
+        if not any(place.is_relative_to(root) for root in allowed):
+            raise ValueError(f"'{name}' lies outside of {allowed[0]}; give --package-path")
+
+    def find(name: str) -> str:
+        folder = package_folder(name, path, packages)
+        if folder is None:
+            raise ValueError(f"package '{name}' is not found; give --package-path")
+        return str(folder)
+
+    parse, load = xacro.parse, xacro.load_yaml
+
+    def checked_parse(inp: Any, filename: str | None = None) -> Any:
+        if inp is None and filename is not None:
+            checked(filename)
+        return parse(inp, filename)
+
+    def checked_load(filename: str) -> Any:
+        checked(filename)
+        return load(filename)
+
+    xacro.parse, xacro.load_yaml = checked_parse, checked_load
+    substitution_args._eval_find = find
+    document = xacro.process_file(str(path))
+    return str(document.documentElement.toxml())
+
+
+if __name__ == '__main__':
+    sys.exit(main())
