@@ -92,7 +92,7 @@ def test_what_is_no_mesh_is_refused_in_one_line(name, tmp_path):
 def test_the_reading_process_names_the_file(tmp_path):
     path = tmp_path / 'lies.stl'
     path.write_bytes(NO_MESH[path.name])
-    with pytest.raises(ConfigError, match='is no stl mesh') as error:
+    with pytest.raises(ConfigError, match=r'is no stl mesh|no triangles in it') as error:
         read_mesh(path)
     assert str(error.value).startswith(f'{path}: ')
 
