@@ -16,7 +16,6 @@ from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
 #: How long an address may take to answer [s].
 _ANSWER_S = 5.0
-_LOOPBACK = '127.0.0.1'
 
 
 def on_threads(sweep: SweepFile, portions: Sequence[Portion], workers: int) -> Iterator[list[Row]]:
@@ -108,12 +107,11 @@ def on_ray(
     local = address == 'local'
     if not local:
         _check_address(address)
-    place = {'_node_ip_address': _LOOPBACK} if local else {}
-    if local:  # nothing leaves this host: neither sockets nor the statistics of Ray
-        os.environ.setdefault('RAY_USAGE_STATS_ENABLED', '0')
+    if local:
+        _stay_on_this_host()
     try:
         ray.init(
-            **place, address='local' if local else address, num_cpus=workers if local else None,
+            address='local' if local else address, num_cpus=workers if local else None,
             include_dashboard=False if local else None, log_to_driver=False,
             logging_level=logging.ERROR,
         )  # fmt: skip
@@ -131,6 +129,19 @@ def on_ray(
             yield from _first(ray, under_way)
     finally:
         ray.shutdown()
+
+
+def _stay_on_this_host() -> None:
+    """
+    Have a Ray that is started here listen on 127.0.0.1 alone, and send no statistics.
+
+    It replaces ``_node_ip_address='127.0.0.1'`` by an address of the network, except where it
+    knows no clusters, as on Windows. So it is told that it knows none.
+    """
+    from ray._private import ray_constants
+
+    os.environ.setdefault('RAY_USAGE_STATS_ENABLED', '0')
+    ray_constants.ENABLE_RAY_CLUSTER = False
 
 
 def _check_address(address: str) -> None:

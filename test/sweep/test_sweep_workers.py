@@ -1,5 +1,6 @@
 """Threads and Ray fly the same rows, and a killed sweep goes on."""
 
+import contextlib
 import json
 import os
 import signal
@@ -86,16 +87,18 @@ def test_without_ray_one_line_says_what_to_type(tmp_path, monkeypatch):
 def test_ray_gives_the_same_bits_and_survives_a_killed_worker(tmp_path):
     """Two Ray workers on this machine; one is killed on the way."""
     sweep = sweep_of(**{**MANY, 'duration': 0.5})
-    killed = []
+    killed, heard = [], set()
 
     def kill_one(done: int, total: int) -> None:
         busy = [pid for pid in descendants(os.getpid()) if title(pid).startswith('ray::_run')]
         if done and busy and not killed:
+            heard.update(listening(descendants(os.getpid())))
             killed.append(busy[0])
             os.kill(busy[0], signal.SIGKILL)
 
     result = run_sweep(sweep, tmp_path, workers=2, ray_address='local', report=kill_one)
     assert killed
+    assert heard and all(address.endswith('0100007F') for address in heard)  # 127.0.0.1 alone
     assert result['status'] == {'ok': 80}
     assert pq.read_table(result['table']).to_pylist() == CaseRunner(sweep).rows(0, 80)
 
@@ -107,6 +110,20 @@ def descendants(parent: int) -> list[int]:
     except OSError:  # it ended meanwhile
         return []
     return [pid for child in map(int, children) for pid in (child, *descendants(child))]
+
+
+def listening(processes: list[int]) -> set[str]:
+    """Return the addresses on which processes wait for TCP connections, as the kernel has them."""
+    links = set()
+    for pid in processes:
+        with contextlib.suppress(OSError):
+            links |= {str(link.readlink()) for link in Path(f'/proc/{pid}/fd').iterdir()}
+    found = set()
+    for table in ('/proc/net/tcp', '/proc/net/tcp6'):
+        for row in map(str.split, Path(table).read_text().splitlines()[1:]):
+            if row[3] == '0A' and f'socket:[{row[9]}]' in links:
+                found.add(row[1].split(':')[0])
+    return found
 
 
 def title(pid: int) -> str:
