@@ -19,6 +19,9 @@ _AT_REST = ('buoyancy',)
 #: Bodies that feel nothing are worth a word when they make up more than this share of the mass:
 #: a control surface whose forces stand on the wing has next to none.
 _NOTABLE_SHARE = 1e-3
+#: From this density on [kg/m^3] a fluid is a liquid, in which buoyancy is no small force: the
+#: lightest one at room temperature, isopentane, has 616, the heaviest gas of air's kind 12.
+_LIQUID = 100.0
 _REMEDY = (
     'give its bodies the plugin fluid_sim.body, or their geoms fluidshape="ellipsoid" '
     '(doc/plugins.md)'
@@ -76,7 +79,7 @@ class FluidTerms:
                     f'moves as in vacuum; {_REMEDY}'
                 )
             else:
-                lines += self._dry_parts(name, parts)
+                lines += self._dry_parts(name, parts) + self._not_buoyant(name, parts)
         return lines + self._dry_scenery(fluid)
 
     def _dry_parts(self, name: str, parts: list[int]) -> list[str]:
@@ -90,6 +93,19 @@ class FluidTerms:
             f"vehicle '{name}': no fluid acts on {len(dry)} of its {len(parts)} bodies: "
             f'{listed(_named(model, dry))} ({share:.1%} of its mass); if they should feel it, '
             f'{_REMEDY}'
+        ]
+
+    def _not_buoyant(self, name: str, parts: list[int]) -> list[str]:
+        model = self._model
+        density = _density_everywhere(model)
+        if density < _LIQUID or not model.opt.gravity.any() or not parts:
+            return []
+        if 'buoyancy' in self.of_vehicles[name] or model.body_gravcomp[parts].any():
+            return []
+        return [
+            f"vehicle '{name}': no buoyancy acts on it in a density of {density:g} kg/m^3: the "
+            'fluid forces of MuJoCo have none, so it sinks with its whole weight; give its bodies '
+            'fluid_sim.body with their volume, or gravcomp="displaced mass over mass"'
         ]
 
     def _dry_scenery(self, fluid: str) -> list[str]:
@@ -158,6 +174,14 @@ def check_flows(scene: Scene, unfelt: Callable[[str], None]) -> None:
         except CommandError as error:
             key = stream if models else 'schedule'
             raise ConfigError(f"{scene.name}: key '{key}': {error}") from None
+
+
+def _density_everywhere(model: mujoco.MjModel) -> float:
+    """Return the density of the one fluid of a model [kg/m^3]; 0 where a surface parts two."""
+    medium = medium_of(model)
+    if medium is None:
+        return float(model.opt.density)
+    return medium.number('density', 0.0) if medium.text('surface') in ('', 'none') else 0.0
 
 
 def _fluid_of(model: mujoco.MjModel) -> str:

@@ -111,7 +111,15 @@ def run_sweep(
     }
     if worlds is not None:
         result['against_cpu'] = against_cpu(runner, table)
+        result['warnings'] += [_NOT_WATCHED]
     return result
+
+
+#: Said of every sweep on a device.
+_NOT_WATCHED = (
+    'no watchdog looks at runs on a device (energy, grids, limits of the engine), so the column '
+    'warnings is empty; fly the same sweep without --device, or a part of it, to have them'
+)
 
 
 def _portions(left: Sequence[Portion], workers: int, most: int) -> list[Portion]:

@@ -62,7 +62,9 @@ def test_an_air_vehicle_with_stock_drag_in_a_scene_with_a_medium(model):
 
 
 def test_a_fluidshape_body_beside_a_medium_feels_it(model):
-    path = model(extension=MEDIUM.format(plugins=''), hull='fluidshape="ellipsoid"')
+    path = model(
+        'gravity="0 0 0"', extension=MEDIUM.format(plugins=''), hull='fluidshape="ellipsoid"'
+    )
     simulation = Simulation(path)
     assert 'drag' in simulation.terms['hull'] and simulation.warnings.lines == []
 
@@ -84,14 +86,24 @@ def test_stock_ellipsoids_whose_coefficients_are_zero(model):
 
 
 def test_a_heavy_arm_that_feels_nothing_is_named_with_its_share(model):
-    path = model(extension=MEDIUM.format(plugins=''), hull='fluidshape="ellipsoid"', body=ARM)
+    path = model(
+        'gravity="0 0 0"',
+        extension=MEDIUM.format(plugins=''),
+        hull='fluidshape="ellipsoid"',
+        body=ARM,
+    )
     (line,) = Simulation(path).warnings.lines
     assert 'no fluid acts on 1 of its 2 bodies: arm (4.0% of its mass)' in line
 
 
 def test_a_free_body_beside_the_vehicle(model):
     crate = '<body name="crate" pos="9 0 0"><freejoint/><geom size=".1"/></body>'
-    path = model(extension=MEDIUM.format(plugins=''), hull='fluidshape="ellipsoid"', beside=crate)
+    path = model(
+        'gravity="0 0 0"',
+        extension=MEDIUM.format(plugins=''),
+        hull='fluidshape="ellipsoid"',
+        beside=crate,
+    )
     named = Simulation(scene(path, 'vehicles: {hull: {body: hull}}'))
     (line,) = named.warnings.lines
     assert line.startswith('free bodies beside the vehicles: no fluid acts on crate')
@@ -146,3 +158,16 @@ def test_a_rotor_that_drags_in_the_wind_feels_it_without_any_fluid():
     simulation = Simulation('x500', fluid='none')
     simulation.set_wind([5, 0, 0])
     assert simulation.warnings.lines == []
+
+
+@pytest.mark.parametrize('keys', [
+    {'option': 'density="1000"', 'hull': 'fluidshape="ellipsoid"'},
+    {'extension': MEDIUM.format(plugins=''), 'hull': 'fluidshape="ellipsoid"'},
+])  # fmt: skip
+def test_a_vehicle_in_a_liquid_without_buoyancy(model, keys):
+    (line,) = Simulation(model(**keys)).warnings.lines
+    assert line.startswith("vehicle 'hull': no buoyancy acts on it in a density of 1000 kg/m^3")
+    assert Simulation(model(**keys, head='gravcomp="1"')).warnings.lines == []
+    assert (
+        Simulation(model(**{'option': 'density="1.2"', 'hull': keys['hull']})).warnings.lines == []
+    )

@@ -135,6 +135,7 @@ def test_mujoco_warp_agrees_with_the_processor(tmp_path, keys):
     """Single precision: 1e-4 of a value after 0.5 s (measured: 1e-5; see doc/sweep.md)."""
     sweep, result, table = fly_on_cpu(tmp_path, duration=0.5, runs=3, **keys)
     assert set(result['status']) == {'ok'} and result['device'] == 'cpu, float32'
+    assert any('no watchdog looks at runs on a device' in line for line in result['warnings'])
     assert table['run'].to_pylist() == list(range(len(table)))
     assert set(table['device'].to_pylist()) == {'cpu, float32'}
     assert not list(set(table.column_names) ^ {*CaseRunner(sweep).row(0), 'device'})
