@@ -6,7 +6,8 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.new_vehicle.layout import DENSITY, Medium, Thruster
+from fluid_sim_ros.new_vehicle.fins import Fins
+from fluid_sim_ros.new_vehicle.layout import DENSITY, WITH_FINS, Medium, Thruster
 from fluid_sim_ros.physics.arrays import Array
 
 GRAVITY = 9.81  # [m/s^2], MuJoCo's default
@@ -14,6 +15,9 @@ GRAVITY = 9.81  # [m/s^2], MuJoCo's default
 _DENSEST = 22590.0
 #: Guess: drag coefficient of a blunt face (cube, face on: 1.05; Hoerner 1965, ch. 3).
 DRAG_COEFFICIENT = 1.0
+#: Guess: drag of a torpedo along its axis, of that of a blunt face; REMUS 100: C_d 0.27 (Prestero
+#: 2001, ch. 4).
+SLENDER_SHARE = 0.25
 #: Guess: speed [m/s] and rate [rad/s] at which linear and quadratic damping are equal.
 LINEAR_BELOW = 0.1
 #: Guess: centre of buoyancy above the centre of mass, of the height.
@@ -28,7 +32,7 @@ class Design:
     A new vehicle: an even box of ``mass`` [kg] and ``size`` (length, width, height) [m].
 
     ``buoyancy`` is the net force upward under water [N]; ``hover`` the thrusts at rest [N] in air,
-    zeros in water.
+    zeros in water; ``sensors`` their kinds; ``layout`` the preset of the thrusters, or a file.
     """
 
     name: str
@@ -38,6 +42,13 @@ class Design:
     buoyancy: float
     thrusters: list[Thruster]
     hover: Array
+    sensors: tuple[str, ...] = ()
+    layout: str = ''
+
+    @property
+    def fins(self) -> Fins | None:
+        """Rudder and planes of a torpedo, None for others."""
+        return Fins(self.size, self.mass) if self.layout in WITH_FINS else None
 
     @property
     def inertia(self) -> Array:
@@ -68,8 +79,9 @@ class Design:
         """
         length, width, height = self.size
         half = 0.5 * DENSITY['water'] * DRAG_COEFFICIENT
+        ahead = SLENDER_SHARE if self.fins else 1.0
         return half * np.array([
-            width * height, length * height, length * width,
+            ahead * width * height, length * height, length * width,
             length * (width**4 + height**4) / 32, width * (length**4 + height**4) / 32,
             height * (length**4 + width**4) / 32,
         ])  # fmt: skip

@@ -2,24 +2,33 @@
 
 import re
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.new_vehicle.design import GRAVITY, Design, check_body, hover_thrusts
+from fluid_sim_ros.new_vehicle.fins import JOINTS
 from fluid_sim_ros.new_vehicle.layout import Medium, thrusters_of
+from fluid_sim_ros.new_vehicle.mappings import mappings_of
 from fluid_sim_ros.new_vehicle.mjcf import mjcf_of
+from fluid_sim_ros.new_vehicle.sensors import KINDS, sensor_entries, sensor_lines
 from fluid_sim_ros.schema.base import NAME_PATTERN
 from fluid_sim_ros.simulation import Simulation
 
+#: Sensors of a new vehicle by its medium: what its autopilots need, and the depth under water.
+SENSORS: dict[Medium, tuple[str, ...]] = {
+    'air': ('imu', 'magnetometer', 'barometer', 'gnss'),
+    'water': ('imu', 'magnetometer', 'pressure'),
+}
 #: How long the trial of a new vehicle runs [s].
 TRIAL = 2.0
 _VEHICLE = """body: {name}
 thrusters: [{thrusters}]  # [N], in the order of commands
-joints: []
-source: fluid_sim new-vehicle (mass, size and thrusters as given, the rest guessed)
+joints: [{joints}]
+{sensors}source: fluid_sim new-vehicle (mass, size and thrusters as given, the rest guessed)
 """
 _SCENE = """model: {name}.xml
 description: {description}
@@ -51,6 +60,7 @@ def design_vehicle(
     *,
     buoyancy: float = 0.0,
     max_thrust: float | None = None,
+    sensors: Sequence[str] | None = None,
 ) -> Design:
     """
     Return a checked design.
@@ -67,6 +77,8 @@ def design_vehicle(
         Net force upward under water [N].
     max_thrust
         Of each thruster of a preset [N].
+    sensors
+        Kinds of sensors; None: those of its medium (`SENSORS`).
 
     Raises
     ------
@@ -84,7 +96,13 @@ def design_vehicle(
     check_body(medium, mass, box, buoyancy)
     placed = thrusters_of(thrusters, medium, box, weight, max_thrust)
     hover = hover_thrusts(placed, weight) if medium == 'air' else np.zeros(len(placed))
-    return Design(name, medium, mass, box, buoyancy, placed, hover)
+    kinds = SENSORS[medium] if sensors is None else tuple(dict.fromkeys(sensors))
+    for kind in kinds:
+        if kind not in KINDS:
+            raise ConfigError(
+                f"--sensors '{kind}' is none{did_you_mean(kind, KINDS)} allowed: {listed(KINDS)}"
+            )
+    return Design(name, medium, mass, box, buoyancy, placed, hover, kinds, thrusters)
 
 
 def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> NewVehicle:
@@ -119,9 +137,12 @@ def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> N
             description=f'{design.name} hovers' if air else f'{design.name} under water',
         ),
         f'{design.name}_vehicle.yaml': _VEHICLE.format(
-            name=design.name, thrusters=', '.join(t.name for t in design.thrusters)
+            name=design.name, thrusters=', '.join(t.name for t in design.thrusters),
+            joints=', '.join(JOINTS) if design.fins else '',
+            sensors=sensor_lines(sensor_entries(list(design.sensors))),
         ),
         f'{design.name}.xml': mjcf_of(design),
+        **mappings_of(design),
     }  # fmt: skip
     for name in texts:
         if (folder / name).exists() and not overwrite:

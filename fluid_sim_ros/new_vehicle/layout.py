@@ -24,7 +24,10 @@ PRESETS: dict[str, tuple[Medium, str]] = {
     'octo': ('air', 'eight rotors around'),
     'vectored6': ('water', 'four thrusters at 45 deg and two vertical ones, as a BlueROV2'),
     'vectored8': ('water', 'four at 45 deg and four vertical ones, as a BlueROV2 Heavy'),
+    'torpedo': ('water', 'a propeller behind, with rudder and planes'),
 }
+#: That have fins, too.
+WITH_FINS = ('torpedo',)
 
 # Guesses for what a list leaves out; doc/new_vehicle.md tells how to measure each.
 #: Rotor in air: thrust in hover over the disc [N/m^2]; Crazyflie 39, x500 100.
@@ -239,8 +242,17 @@ def _preset(
     length, width, height = size
     if PRESETS[name][0] == 'air':
         return _rotors(name, size, weight, max_thrust)
+    guessed = max_thrust is None
     if max_thrust is None:  # rho/2 C_d A v^2 = 4 T cos 45 at 1 m/s, C_d 1
         max_thrust = 0.5 * DENSITY['water'] * width * height / (4 * np.sqrt(0.5))
+    if name == 'torpedo':  # its drag coefficient is a quarter: 2 m/s ahead
+        thrust = 4 * np.sqrt(0.5) * max_thrust if guessed else max_thrust
+        return [
+            ThrusterPlace(
+                name='propeller', position=[-0.5 * length, 0.0, 0.0], direction=[1.0, 0.0, 0.0],
+                max_thrust=thrust,
+            )
+        ]  # fmt: skip
     # ArduSub's order and signs: front right, front left, rear right, rear left; vertical down
     front = [(1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0)]
     places = [((0.35 * x * length, 0.3 * y * width, 0.0), (-x, y, 0.0)) for x, y in front]

@@ -84,7 +84,7 @@ _SCENERY = """  </extension>
       <freejoint name="{name}"/>
       <camera name="track" mode="trackcom" pos="{camera}" xyaxes=".71 .71 0 -.3 .3 .9"/>
       <!-- origin: centre of mass; guess: moments of inertia of an even box{box} -->
-      <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia}"/>
+      <inertial pos="{balance} 0 0" mass="{hull_mass}" diaginertia="{inertia}"/>
 """
 _BODY = """      <plugin plugin="fluid_sim.body">
         <!-- guess: of the ellipsoid displaced_water, exact for that (Lamb 1932);
@@ -110,17 +110,17 @@ _TAIL = """
       <!-- z is the direction of positive thrust -->
 {sites}
       <site name="imu" pos="0 0 0"/>
-    </body>
+{fins}    </body>
   </worldbody>
 
-  <!-- ctrl = thrust at rest [N]{unread} -->
+  <!-- ctrl = thrust at rest [N]{angles}{unread} -->
   <actuator>
 {actuators}
   </actuator>
 
   <!-- {key_comment} -->
   <keyframe>
-    <key name="{key}" qpos="0 0 {start} 1 0 0 0" ctrl="{ctrl}"{act}/>
+    <key name="{key}" qpos="0 0 {start} 1 0 0 0{joints}" ctrl="{ctrl}"{act}/>
   </keyframe>
 </mujoco>
 """
@@ -146,7 +146,8 @@ def mjcf_of(design: Design) -> str:
         name=design.name, extent=_n(3 * largest), start=_n(start),
         sky='.12 .42 .52" rgb2=".02 .07 .12' if water else '.72 .82 .92" rgb2=".35 .5 .7',
         floor=_n(3 * start if water else 0), camera=_n(1.4 * largest * np.array([1, -1, 0.7])),
-        mass=_n(design.mass), inertia=_n(design.inertia, 6),
+        hull_mass=_n(design.mass - (design.fins.weigh if design.fins else 0.0)),
+        balance=_n(design.fins.balance if design.fins else 0.0), inertia=_n(design.inertia, 6),
         box='' if water else ',\n           from which the drag box follows too',
     )  # fmt: skip
     return ''.join([
@@ -175,6 +176,7 @@ def _thrusters(design: Design) -> str:
         '    <!-- guess where your list was silent: diameter [m], thrust coefficient '
         '[N/(rad/s)^2],\n         torque over thrust [m], lag [s] -->\n'
         f'    <plugin plugin="fluid_sim.thruster">\n{instances}\n    </plugin>\n'
+        f'{design.fins.instance() if design.fins else ""}'
     )
 
 
@@ -227,21 +229,25 @@ def _looks(design: Design) -> str:
 def _tail(design: Design) -> str:
     thrusters, water = design.thrusters, design.medium == 'water'
     turning = [thruster for thruster in thrusters if thruster.spin]
-    control = [*design.hover, *[0.0] * len(turning)]
+    fins = design.fins
+    servos = fins.servos() if fins else []
+    control = [*design.hover, *[0.0] * (len(turning) + len(servos))]
     speeds = [
         x
         for thruster, thrust in zip(thrusters, design.hover, strict=True)
         if any(thruster.lag)
         for x in (thruster.speed(thrust), 0.0)
-    ]
+    ] + [0.0] * len(servos)
     return _TAIL.format(
         sites='\n'.join(
             f'      <site name="{t.name}" pos="{_n(t.position)}" zaxis="{_n(t.direction)}"/>'
             for t in thrusters
         ),
-        actuators='\n'.join([*map(_thrust, thrusters), *map(_reaction, turning)]),
+        actuators='\n'.join([*map(_thrust, thrusters), *map(_reaction, turning), *servos]),
+        angles=', deflections [rad]' if fins else '',
         unread='; that of the reaction torques is not read' if turning else '',
-        key='start' if water else 'hover',
+        key='start' if water else 'hover', joints=' 0' * len(servos),
+        fins=fins.bodies() if fins else '',
         key_comment=(
             'under water, at rest' if water
             else 'thrusts that carry the weight level (act: rotor speed [rad/s], clock)'

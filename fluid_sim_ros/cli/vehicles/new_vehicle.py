@@ -32,7 +32,7 @@ def add_parsers(commands: Any, show: Show) -> None:
     )  # fmt: skip
     new.add_argument(
         '--thrusters', required=True, metavar='LAYOUT',
-        help='quad, hexa, octo (air), vectored6, vectored8 (water), or a YAML file',
+        help='quad, hexa, octo (air), vectored6, vectored8, torpedo (water), or a YAML file',
     )  # fmt: skip
     new.add_argument(
         '--max-thrust', type=float, metavar='N',
@@ -41,6 +41,11 @@ def add_parsers(commands: Any, show: Show) -> None:
     new.add_argument(
         '--buoyancy', type=float, default=0.0, metavar='N',
         help='net force upward under water [N] (default 0: neutral)',
+    )  # fmt: skip
+    new.add_argument(
+        '--sensors', nargs='*', metavar='KIND',
+        help='default: imu, magnetometer, and barometer with gnss (air) or pressure (water); none '
+        'behind it: no sensors',
     )  # fmt: skip
     new.add_argument('--out', type=Path, metavar='FOLDER', help='default: NAME')
     new.add_argument('--force', action='store_true', help='replace files that exist')
@@ -56,6 +61,7 @@ def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
     from rich.markup import escape
 
     from fluid_sim_ros.new_vehicle.files import TRIAL, design_vehicle, write_vehicle
+    from fluid_sim_ros.new_vehicle.fins import JOINTS
 
     design = design_vehicle(
         arguments.name,
@@ -65,6 +71,7 @@ def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
         arguments.thrusters,
         buoyancy=arguments.buoyancy,
         max_thrust=arguments.max_thrust,
+        sensors=arguments.sensors,
     )
     made = write_vehicle(design, arguments.out or Path(arguments.name), overwrite=arguments.force)
     result = {
@@ -73,6 +80,8 @@ def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
         'thrusters': [thruster.name for thruster in design.thrusters],
         'thrust_range_n': [list(thruster.limits) for thruster in design.thrusters],
         'hover_n': design.hover.tolist(),
+        'joints': list(JOINTS) if design.fins else [],
+        'sensors': list(design.sensors),
         'inertia_kg_m2': design.inertia.tolist(),
         'volume_m3': design.volume if arguments.medium == 'water' else None,
         'drift_m': made.drift,

@@ -22,6 +22,7 @@ from fluid_sim_ros.new_vehicle.importing.skeleton import Skeleton, skeleton_of
 from fluid_sim_ros.new_vehicle.layout import (
     DENSITY,
     PRESETS,
+    WITH_FINS,
     Medium,
     Thruster,
     complete_thruster,
@@ -115,7 +116,10 @@ def import_vehicle(
 
 def _ask_thrusters(skeleton: Skeleton, answers: Answers) -> None:
     if answers.thrusters is None:
-        fitting = [n for n, (where, _) in PRESETS.items() if answers.medium in (None, where)]
+        fitting = [
+            name for name, (where, _) in PRESETS.items()
+            if answers.medium in (None, where) and name not in WITH_FINS
+        ]  # fmt: skip
         skeleton.questions.append(
             f'thrusters: --thrusters {", ".join(fitting)}, or thrusters: with the links and '
             'max_thrust [N] in the YAML file'
@@ -195,4 +199,6 @@ def _thrusters(
     preset = str(answers.thrusters)
     if preset in PRESETS:
         skeleton.said.append(f'thrusters: preset {preset}, scaled with the hull, about its middle')
+    if preset in WITH_FINS:
+        skeleton.said.append(f'{preset}: without its fins; name the links of fins under fins:')
     return thrusters_of(preset, medium, hull.statics.size, weight, answers.max_thrust)
