@@ -13,6 +13,11 @@ FLUIDS = ('none', 'inertia', 'ellipsoid', 'no_added_mass')
 Completer = Callable[..., Iterable[str]]
 
 
+#: Suffixes of meshes, and of logs of flights.
+MESHES = ('stl', 'obj', 'ply', 'glb', 'dae')
+FLIGHTS = ('mcap', 'ulg', 'bin', 'BIN', 'log', 'db3', 'csv', 'parquet')
+
+
 def complete(parser: argparse.ArgumentParser) -> None:
     """
     Answer a shell that asks for words, and end; else return at once.

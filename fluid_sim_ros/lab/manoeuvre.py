@@ -217,13 +217,13 @@ def _shortened(problem: Problem, seen: _Seen) -> Problem:
 
 def _refuse_ground(problem: Problem) -> None:
     scene = problem.rungs[problem.richest].scene
+    others = {name: Scene.load(name) for name in scene_names() if name != scene.name}
     flying = [
-        name
-        for name in scene_names()
-        if name != scene.name and Scene.load(name).model_path == scene.model_path
-    ]
-    other = f', or advise another scene of this model: {", ".join(flying)}' if flying else ''
+        name for name, other in others.items()
+        if other.model_path == scene.model_path and other.fleet is None
+    ]  # fmt: skip
+    tail = f', or advise another scene of this model: {", ".join(flying)}' if flying else ''
     raise ConfigError(
         f'{problem.name}: the vehicle rests on the ground throughout, so that every setting gives '
-        f'the same; give the scene a schedule that lifts it{other}'
+        f'the same; give the scene a schedule that lifts it{tail}'
     )

@@ -6,9 +6,10 @@ function: 100 us and more per message. The loops of this package take and give b
 that steps, which costs 1 to 2 us. For that they need from rclpy:
 
 * the ``handle`` of a subscription: ``take_message`` takes a message now, without an executor;
-* the ``handle`` of a publisher: ``publish_raw`` sends bytes (``Publisher.publish`` does, too, at
-  three times the cost);
+* the ``handle`` of a publisher: ``publish_raw`` sends bytes at a third of the cost of ``publish``;
 * the ``WaitSet`` below the executor, to sleep until a message or a wake-up arrives;
+* the ``EventHandle`` of a topic, to ask whether a peer does not fit. An executor that waits for it
+  wakes with every message: 40 ms instead of 0.2 ms an exchange;
 * ``Node._parameter_overrides``: what the user passed, before anything is declared. Only there can
   a misspelt parameter be found.
 
@@ -19,14 +20,17 @@ A handle must not be destroyed while it is used; here both happen in the thread 
 """
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.event_handler import (
-    EventHandler,
     PublisherEventCallbacks,
+    QoSPublisherEventType,
+    QoSSubscriptionEventType,
     SubscriptionEventCallbacks,
+    UnsupportedEventTypeError,
 )
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
@@ -37,27 +41,25 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 from fluid_sim_ros.messages.topic import Quality
 from fluid_sim_ros.ros.message_types import message_class
 
+_ASKED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS
+_OFFERED = QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS
+
 
 class _PolledGroup(CallbackGroup):
     """
     Keeps the executor away from what a loop takes itself: it would take the messages first.
 
-    It still has the executor call what the middleware says of a topic, such as a peer whose
-    quality of service does not fit.
-
     Each topic has a group of its own: the common one of a node never forgets what was in it.
     """
 
     def can_execute(self, entity: Any) -> bool:
-        """Return whether it is an event: the executor takes no message."""
-        return isinstance(entity, EventHandler)
+        """Return False: the executor takes no message."""
+        return False
 
-    def beginning_execution(self, entity: Any) -> bool:
-        """Return whether it is an event, as ``can_execute``."""
-        return self.can_execute(entity)
+    beginning_execution = can_execute
 
     def ending_execution(self, entity: Any) -> None:
-        """Do nothing: events do not keep each other waiting."""
+        """Nothing begins."""
 
 
 class Endpoint:
@@ -70,18 +72,31 @@ class Endpoint:
         Full name of the topic, after any remapping, and message type.
     quality_of_service
         What is asked for or offered, after the user's overrides.
-    incompatible
-        The middleware has met a peer with which no message can pass.
-
     """
 
     topic: str
     type: str
     quality_of_service: QoSProfile
-    incompatible = False
+    _event: Any = None
+    _unfit = False
 
-    def _on_incompatible(self, info: Any) -> None:
-        self.incompatible = True
+    @property
+    def incompatible(self) -> bool:
+        """Whether the middleware has met a peer with which no message can pass."""
+        if not self._unfit and self._event is not None:
+            with self._event:
+                status = self._event.take_event()
+            self._unfit = bool(status and status.total_count)
+        return self._unfit
+
+    def _watch(self, handle: Any, kind: Any) -> None:
+        with suppress(UnsupportedEventTypeError), handle:  # not every RMW has this event
+            self._event = _rclpy.EventHandle(handle, kind)
+
+    def _forget(self) -> None:
+        if self._event is not None:
+            self._event.destroy_when_not_in_use()
+        self._event = None
 
 
 class PolledSubscription(Endpoint):
@@ -116,10 +131,11 @@ class PolledSubscription(Endpoint):
             self._class, topic, lambda _: None, _profile(quality, keep_all),
             callback_group=_PolledGroup(), raw=True,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-            event_callbacks=SubscriptionEventCallbacks(incompatible_qos=self._on_incompatible),
+            event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
         self.quality_of_service = self._subscription.qos_profile
         self.handle = self._subscription.handle
+        self._watch(self.handle, _ASKED)
         self._take = self.handle.take_message
         self.topic = str(self._subscription.topic_name)
 
@@ -139,6 +155,7 @@ class PolledSubscription(Endpoint):
 
     def destroy(self) -> None:
         """Remove it from its node."""
+        self._forget()
         self._node.destroy_subscription(self._subscription)
 
 
@@ -168,11 +185,12 @@ class RawPublisher(Endpoint):
         self._publisher = node.create_publisher(
             message_class(message), topic, _profile(quality), callback_group=_PolledGroup(),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-            event_callbacks=PublisherEventCallbacks(incompatible_qos=self._on_incompatible),
+            event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
         self.topic = str(self._publisher.topic_name)
         self.quality_of_service = self._publisher.qos_profile
         self.publish = self._publisher.handle.publish_raw
+        self._watch(self._publisher.handle, _OFFERED)
 
     def subscription_count(self) -> int:
         """Return how many subscriptions of the topic are known."""
@@ -192,6 +210,7 @@ class RawPublisher(Endpoint):
 
     def destroy(self) -> None:
         """Remove it from its node."""
+        self._forget()
         self._node.destroy_publisher(self._publisher)
 
 

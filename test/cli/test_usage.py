@@ -268,5 +268,5 @@ def test_every_positional_argument_and_file_option_is_completed():
     assert isinstance(parser, Parser)
     for name, command in parser.commands.items():
         for action in command._actions:
-            if action.dest in ('scene', 'problem', 'log', 'file'):
+            if action.dest in ('scene', 'problem', 'log', 'logs', 'file', 'mesh', 'model'):
                 assert hasattr(action, 'completer'), (name, action.dest)

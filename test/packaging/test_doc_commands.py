@@ -44,6 +44,10 @@ NOT_RUN = {
     '.venv/bin/pip install': 'changes the environment',
     'fluid_sim sweep config/sweeps/x500_gust.yaml --ray local': 'needs the extra sweep, as said',
     'fluid_sim sweep FILE.yaml --device cuda:0': 'needs a GPU and the extra warp, as said',
+    'fluid_sim info flight.ulg': 'has no log of a real flight; see test/flights and test/cli',
+    'fluid_sim info bag/': 'has no log of a real flight',
+    'fluid_sim compare flight.ulg': 'has no log of a real flight',
+    'fluid_sim fit a.usd': 'has no log of a real flight',
     'fluid_sim repair broken.mcap whole.mcap': 'has no damaged file; see test_recorder.py',
 }
 #: What goes on until it is ended, by a part of it.

@@ -29,7 +29,8 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'fly a logged flight again with a model, and measure the gap'
     parser = add_command(commands, 'compare', text, _compare, show)
-    parser.add_argument('log', metavar='LOG', help='of any software; see fluid_sim info LOG')
+    log = parser.add_argument('log', metavar='LOG', help='of any software; see fluid_sim info LOG')
+    completion.completed_by(log, completion.files(*completion.FLIGHTS))
     add_model(parser)
     add_part(parser)
     parser.add_argument('--out', metavar='FOLDER', type=Path, help='picture and page go here')

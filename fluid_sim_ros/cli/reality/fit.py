@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.reality.compare import add_model, outputs_of
 from fluid_sim_ros.cli.reality.info import mapping_of
@@ -32,7 +33,8 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'fit parameters of a model to logged flights, with standard errors'
     parser = add_command(commands, 'fit', text, _fit, show)
-    parser.add_argument('logs', metavar='LOG', nargs='+', help='that are fitted to')
+    logs = parser.add_argument('logs', metavar='LOG', nargs='+', help='that are fitted to')
+    completion.completed_by(logs, completion.files(*completion.FLIGHTS))
     add_model(parser)
     parser.add_argument(
         '--parameters', metavar='NAME', nargs='*', default=[], help='none: list those of the model'

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.shared import Show, add_command
 
 if TYPE_CHECKING:
@@ -28,7 +29,10 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'added mass, buoyancy and damping of a body from its mesh'
     hydro = add_command(commands, 'hydro', text, _hydro, show)
-    hydro.add_argument('mesh', metavar='MESH', type=Path, help='STL, OBJ, PLY, GLB, DAE or OFF')
+    mesh = hydro.add_argument(
+        'mesh', metavar='MESH', type=Path, help='STL, OBJ, PLY, GLB, DAE or OFF'
+    )
+    completion.completed_by(mesh, completion.files('off', *completion.MESHES))
     hydro.add_argument(
         '--density', type=float, required=True, metavar='RHO', help='of the fluid [kg/m^3]'
     )

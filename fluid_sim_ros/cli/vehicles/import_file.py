@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import WRONG_INPUT
 from fluid_sim_ros.cli.shared import Show, add_command
 
@@ -33,10 +34,11 @@ def add_parser(commands: Any, show: Show) -> None:
     """
     text = 'write model, vehicle file and scene of a vehicle from its URDF, MJCF model or mesh'
     parser = add_command(commands, 'import', text, _import, show)
-    parser.add_argument(
+    file = parser.add_argument(
         'file', metavar='FILE', type=Path,
         help='URDF (.urdf, .xacro), MJCF (.xml), or STL, OBJ, PLY, GLB, DAE',
     )  # fmt: skip
+    completion.completed_by(file, completion.files('urdf', 'xacro', 'xml', *completion.MESHES))
     parser.add_argument(
         '--answers', type=Path, metavar='YAML', help='what the file does not say: doc/import.md'
     )
