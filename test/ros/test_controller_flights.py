@@ -9,7 +9,15 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from test.support.ros_processes import Peer, controller, error_lines, node, stamp_ns, wait_until
+from test.support.ros_processes import (
+    Peer,
+    controller,
+    error_lines,
+    node,
+    stamp_ns,
+    state_after,
+    wait_until,
+)
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
@@ -20,9 +28,8 @@ def numbers(message):
 
 
 def reach(states, seconds):
-    """Wait until the states have come this far; return the last one's position and heading."""
-    wait_until(lambda: states and stamp_ns(states[-1]) > seconds * 1e9, f'{seconds} s')
-    return numbers(states[-1])
+    """Wait until the states have come this far; return position and heading of that time."""
+    return numbers(state_after(states, seconds))
 
 
 @pytest.mark.parametrize('first', ['node', 'controller'])

@@ -8,7 +8,7 @@ from nav_msgs.msg import Odometry
 
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.resources import models_folder
-from test.support.ros_processes import Peer, controller, error_lines, node, stamp_ns, wait_until
+from test.support.ros_processes import Peer, controller, error_lines, node, state_after
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 pytest.importorskip('capytaine')
@@ -16,9 +16,9 @@ EXAMPLES = models_folder() / 'examples'
 
 
 def reach(states, seconds):
-    """Wait until the states have come this far; return the last one's position and heading."""
-    wait_until(lambda: states and stamp_ns(states[-1]) > seconds * 1e9, f'{seconds} s')
-    p, q = states[-1].pose.pose.position, states[-1].pose.pose.orientation
+    """Wait until the states have come this far; return position and heading of that time."""
+    pose = state_after(states, seconds).pose.pose
+    p, q = pose.position, pose.orientation
     return np.array([p.x, p.y, p.z, 2 * math.atan2(q.z, q.w)])
 
 

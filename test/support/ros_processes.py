@@ -6,6 +6,8 @@ import subprocess
 import sys
 import threading
 import time
+from collections import deque
+from itertools import takewhile
 from pathlib import Path
 
 import rclpy
@@ -170,6 +172,13 @@ def wait_until(condition, what, timeout=PATIENCE):
         if time.monotonic() > deadline:
             raise AssertionError(f'waited {timeout:g} s in vain for {what}')
         time.sleep(0.01)
+
+
+def state_after(states, seconds):
+    """Wait until the states have come this far; return the first after it, since any reset."""
+    wait_until(lambda: states and stamp_ns(states[-1]) > seconds * 1e9, f'{seconds} s')
+    later = takewhile(lambda state: stamp_ns(state) > seconds * 1e9, reversed(list(states)))
+    return deque(later, maxlen=1).pop()
 
 
 def stamp_ns(message):
