@@ -1,23 +1,24 @@
 """The example controllers on vehicles of others: the axes that they have are controlled."""
 
-import math
 import re
 
-import numpy as np
 import pytest
 from nav_msgs.msg import Odometry
+from rclpy.serialization import deserialize_message
 
+from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.resources import models_folder
-from test.support.ros_processes import Peer, controller, error_lines, node, state_after, wait_until
+from test.support.ros_processes import (
+    Peer,
+    controller,
+    error_lines,
+    node,
+    place_of,
+    reach,
+    wait_until,
+)
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
-
-
-def reach(states, seconds):
-    """Wait until the states have come this far; return position and heading of that time."""
-    pose = state_after(states, seconds).pose.pose
-    p, q = pose.position, pose.orientation
-    return np.array([p.x, p.y, p.z, 2 * math.atan2(q.z, q.w)])
 
 
 def test_rov_controller_on_a_rov_with_six_thrusters_holds_the_axes_that_it_has():
@@ -66,14 +67,16 @@ def test_auv_controller_on_a_torpedo_of_a_user_dives_and_heads_with_its_fins(tmp
     assert re.search(r'fins elevators, tail: 0\.7\d* 1/m\^2 in pitch and yaw', pilot.output)
 
 
-@pytest.mark.full  # the heading at 5 s differs between runs since lockstep is fast: to be found
 def test_auv_controller_says_which_axis_a_torpedo_lacks(tmp_path):
-    scene = torpedo(tmp_path, rudder_only=True)
-    with Peer() as peer:
-        states = peer.collect(Odometry, 'eel/odom', depth=5000)
-        pilot = controller('auv', scene=scene, heading=0.5)
-        with pilot, node(scene=scene, pacing='lockstep'):
-            there = reach(states, 5.0)
+    scene, log = torpedo(tmp_path, rudder_only=True), tmp_path / 'flight.mcap'
+    pilot = controller('auv', scene=scene, heading=0.5)
+    # from the log: a subscriber may be found later than these 5 s take
+    flight = {'pacing': 'lockstep', 'duration': 5.0, 'record__path': log}
+    with pilot, node(scene=scene, **flight) as simulator:
+        assert simulator.wait() == 0
+    *_, last = open_log(log).messages(['/eel/odom'])
+    there = place_of(deserialize_message(last.data, Odometry))
+    assert last.log_ns == 5_000_000_000
     assert there[3] == pytest.approx(0.45, abs=0.1)  # later it lies on the bed
     assert "the fins of 'eel' do not turn it in pitch: the depth is not held" in pilot.output
 

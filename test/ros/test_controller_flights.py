@@ -14,22 +14,13 @@ from test.support.ros_processes import (
     controller,
     error_lines,
     node,
+    place_of,
+    reach,
     stamp_ns,
-    state_after,
     wait_until,
 )
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
-
-
-def numbers(message):
-    p, q = message.pose.pose.position, message.pose.pose.orientation
-    return np.array([p.x, p.y, p.z, 2 * math.atan2(q.z, q.w)])
-
-
-def reach(states, seconds):
-    """Wait until the states have come this far; return position and heading of that time."""
-    return numbers(state_after(states, seconds))
 
 
 @pytest.mark.parametrize('first', ['node', 'controller'])
@@ -111,7 +102,7 @@ def fly_in_wind(seconds, **parameters):
                 assert simulator.wait() == 0
         output = simulator.output + pilot.output
     by_stamp = {stamp_ns(m): m for m in states}
-    rows = [numbers(by_stamp[stamp]) for stamp in sorted(by_stamp)]
+    rows = [place_of(by_stamp[stamp]) for stamp in sorted(by_stamp)]
     assert len(rows) >= 100 * seconds
     return np.array(rows[: round(100 * seconds)]), output
 

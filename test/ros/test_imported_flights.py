@@ -1,25 +1,15 @@
 """A quadrotor and an ROV from their URDF files fly over topics: import, node, controller."""
 
-import math
-
-import numpy as np
 import pytest
 from nav_msgs.msg import Odometry
 
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.resources import models_folder
-from test.support.ros_processes import Peer, controller, error_lines, node, state_after
+from test.support.ros_processes import Peer, controller, error_lines, node, reach
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 pytest.importorskip('capytaine')
 EXAMPLES = models_folder() / 'examples'
-
-
-def reach(states, seconds):
-    """Wait until the states have come this far; return position and heading of that time."""
-    pose = state_after(states, seconds).pose.pose
-    p, q = pose.position, pose.orientation
-    return np.array([p.x, p.y, p.z, 2 * math.atan2(q.z, q.w)])
 
 
 def imported(name, folder, *options):

@@ -1,5 +1,6 @@
 """A real node in a process of its own, and a peer in the test's process, over real DDS."""
 
+import math
 import re
 import signal
 import subprocess
@@ -10,6 +11,7 @@ from collections import deque
 from itertools import takewhile
 from pathlib import Path
 
+import numpy as np
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.context import Context
@@ -174,11 +176,17 @@ def wait_until(condition, what, timeout=PATIENCE):
         time.sleep(0.01)
 
 
-def state_after(states, seconds):
-    """Wait until the states have come this far; return the first after it, since any reset."""
+def place_of(odometry):
+    """Return position [m] and heading [rad], shape (4,)."""
+    p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
+    return np.array([p.x, p.y, p.z, 2 * math.atan2(q.z, q.w)])
+
+
+def reach(states, seconds):
+    """Wait until the states have come this far; return the place then, since any reset."""
     wait_until(lambda: states and stamp_ns(states[-1]) > seconds * 1e9, f'{seconds} s')
     later = takewhile(lambda state: stamp_ns(state) > seconds * 1e9, reversed(list(states)))
-    return deque(later, maxlen=1).pop()
+    return place_of(deque(later, maxlen=1).pop())
 
 
 def stamp_ns(message):
