@@ -144,14 +144,11 @@ def chosen_runs(arguments: argparse.Namespace, scene: 'Scene') -> 'list[Autopilo
         raise ConfigError(
             "--param needs --autopilot: state them as 'parameters' of a vehicle's autopilot"
         )
-    programs = _programs(arguments.programs, [pilot.options for pilot in stated])
+    programs = _programs(arguments.programs, stated)
     return [
-        AutopilotRun(
-            replace(pilot.options, program=bool(program), **chosen), program, pilot.parameters,
-            arguments.home,
-        )
+        AutopilotRun(replace(pilot, program=bool(program), **chosen), program, arguments.home)
         for pilot, program in zip(stated, programs, strict=True)
-    ]  # fmt: skip
+    ]
 
 
 def _given(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -202,8 +199,11 @@ def _chosen_run(arguments: argparse.Namespace) -> 'AutopilotRun':
             'stand in the scene file (doc/fleets.md)'
         )
     program = ''.join(arguments.programs)
-    options = AutopilotOptions(arguments.autopilot, program=bool(program), **chosen)
-    return AutopilotRun(options, program, parse_parameters(arguments.parameters), arguments.home)
+    options = AutopilotOptions(
+        arguments.autopilot, program=bool(program),
+        parameters=parse_parameters(arguments.parameters), **chosen,
+    )  # fmt: skip
+    return AutopilotRun(options, program, arguments.home)
 
 
 def autopilot_table(arguments: argparse.Namespace) -> 'tuple[Table, dict[str, Any]]':

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli.home import turn_to
@@ -38,8 +38,6 @@ class AutopilotRun:
         What its bridge needs to know.
     program
         Command that starts its program; empty: the user does.
-    parameters
-        Of the autopilot, value by name, in place of those of the mapping.
     home
         Latitude and longitude [deg], altitude [m] and heading [deg] of the start; empty: the
         scene's, and as it begins.
@@ -48,7 +46,6 @@ class AutopilotRun:
 
     options: AutopilotOptions
     program: str = ''
-    parameters: Mapping[str, float] = field(default_factory=dict)
     home: Sequence[float] = ()
 
 
@@ -149,7 +146,7 @@ class Flight:
         options, home = run.options, self._simulation.scene.home
         kind = self._simulation.vehicle(bridge.vehicle).kind
         file, _ = load_mapping(options.protocol, kind, options.mapping)
-        parameters = needed_parameters(file, run.parameters)
+        parameters = needed_parameters(file, options.parameters)
         if parameters:
             given = f'parameters given to the program: {parameters_line(parameters)}'
             self._say(self._of(bridge, given))

@@ -1,7 +1,7 @@
 """The autopilots that a scene file states for its vehicles, and their bridges."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from fluid_sim_ros.loop.autopilot_port import (
@@ -14,25 +14,7 @@ from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
 
 
-@dataclass(frozen=True)
-class StatedAutopilot:
-    """
-    One autopilot of a scene file.
-
-    Attributes
-    ----------
-    options
-        What its bridge needs to know.
-    parameters
-        Value by name, in place of those of the mapping.
-
-    """
-
-    options: AutopilotOptions
-    parameters: Mapping[str, float] = field(default_factory=dict)
-
-
-def autopilots_of(scene: Scene, **common: Any) -> list[StatedAutopilot]:
+def autopilots_of(scene: Scene, **common: Any) -> list[AutopilotOptions]:
     """
     Return the autopilots that a scene's file states, in its order.
 
@@ -46,12 +28,9 @@ def autopilots_of(scene: Scene, **common: Any) -> list[StatedAutopilot]:
     """
     members = {} if scene.fleet is None else scene.fleet.members
     return [
-        StatedAutopilot(
-            AutopilotOptions(
-                pilot.protocol, vehicle=name, mapping=pilot.mapping,
-                instance=pilot.instance or 0, port=pilot.port, **common,
-            ),
-            pilot.parameters,
+        AutopilotOptions(
+            pilot.protocol, vehicle=name, mapping=pilot.mapping, instance=pilot.instance or 0,
+            port=pilot.port, parameters=pilot.parameters, **common,
         )
         for name, member in members.items()
         if (pilot := member.autopilot) is not None

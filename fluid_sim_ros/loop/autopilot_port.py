@@ -56,6 +56,8 @@ class AutopilotOptions:
         Wall time without moved sticks after which the radio control is lost [s]; 0: never.
     earth
         One of ``EARTHS``: what PX4's places are computed on.
+    parameters
+        Of the autopilot, the user's own, value by name: in place of those of the mapping.
 
     """
 
@@ -70,6 +72,7 @@ class AutopilotOptions:
     on_timeout: str = 'continue'
     sticks_timeout: float = 0.5
     earth: str = 'wgs84'
+    parameters: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -26,15 +26,21 @@ class Battery:
     ----------
     voltage, current
         At its terminals [V], [A].
+    used, left
+        Charge that was drawn [Ah], and the share of its capacity that is left.
 
     """
 
     def __init__(self, file: BatteryFile, limits: Sequence[float]) -> None:
         self._file = file
         self._limits = tuple(limits)
-        self._used = 0.0  # [A s]
-        self.current = file.idle
-        self.voltage = file.full
+        self.refill()
+
+    def refill(self) -> None:
+        """Be full again, as where a flight begins anew."""
+        self.used, self.left = 0.0, 1.0
+        self.current = self._file.idle
+        self.voltage = self._file.full
 
     def draw(self, thrusts: Sequence[float], seconds: float) -> None:
         """
@@ -51,7 +57,7 @@ class Battery:
         file = self._file
         shares = [(abs(t) / limit) ** 1.5 for t, limit in zip(thrusts, self._limits, strict=True)]
         self.current = file.idle + file.full_current * sum(shares) / len(shares)
-        self._used += self.current * seconds
-        left = max(0.0, 1.0 - self._used / (_HOUR * file.capacity))
-        open_voltage = file.empty + left * (file.full - file.empty)
+        self.used += self.current * seconds / _HOUR
+        self.left = max(0.0, 1.0 - self.used / file.capacity)
+        open_voltage = file.empty + self.left * (file.full - file.empty)
         self.voltage = max(0.0, open_voltage - file.resistance * self.current)

@@ -54,7 +54,7 @@ def open_bridge(
     vehicle = simulation.vehicle(options.vehicle)
     file, path = load_mapping(options.protocol, vehicle.kind, options.mapping)
     actuators = ActuatorMap(file, path, vehicle)
-    if not options.program and (parameters := needed_parameters(file, {})):
+    if not options.program and (parameters := needed_parameters(file, options.parameters)):
         line = f'{path.stem}: the autopilot needs {parameters_line(parameters)}'
         surroundings.inform(line)
     if options.protocol == 'px4':

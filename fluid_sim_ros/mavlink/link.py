@@ -67,7 +67,7 @@ class AutopilotLink(ABC):
         self._sticks = Sticks(file.rc, options.sticks_timeout, self.channels)
         self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
         self._outputs: Sequence[float] = ()
-        self._thrusts: Sequence[float] = ()  # [N]
+        self._thrusts: Sequence[float] = actuators.rest[0]  # [N]
 
     @abstractmethod
     def begin(self, simulation: Simulation) -> None:

@@ -125,7 +125,7 @@ class AutopilotFile(Strict):
     optical_flow
         PX4: send what a downward camera sees, by the true motion; needs a rangefinder.
     battery
-        ArduPilot: what its battery monitor measures; PX4 has a battery of its own.
+        What its battery monitor measures; without one, PX4 has a battery of its own.
     rc
         Sticks of a radio control [us], sent all the time; empty: none.
     ignored

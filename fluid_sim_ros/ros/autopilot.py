@@ -147,7 +147,7 @@ def start_autopilots(
     if protocol == 'none':
         return Autopilots()
     if protocol == 'scene':
-        options = [pilot.options for pilot in autopilots_of(simulation.scene, **common)]
+        options = autopilots_of(simulation.scene, **common)
         if not options:
             return Autopilots()
     else:

@@ -58,6 +58,7 @@ def test_sticks_of_a_mapping_bring_the_parameters_without_which_px4_ignores_them
     assert needed == {
         'RC_CHAN_CNT': 5, 'COM_RC_IN_MODE': 0, 'RC_MAP_ROLL': 1, 'RC_MAP_PITCH': 2,
         'RC_MAP_THROTTLE': 3, 'RC_MAP_YAW': 5, 'MPC_THR_HOVER': 0.77,
+        'SIM_BAT_DRAIN': 0,
     }  # fmt: skip
     with BridgedFlight('x500_ground', 'px4', mapping=str(path)).running() as flight:
         px4 = Px4(flight.port, silent=0)
@@ -75,7 +76,7 @@ def test_a_number_alone_is_a_parameter(tmp_path):
     begin = text.index('MPC_THR_HOVER: {')
     path.write_text(text[:begin] + 'MPC_THR_HOVER: 0.5' + text[text.index('}', begin) + 1 :])
     file, _ = load_mapping('px4', 'x500', str(path))
-    assert needed_parameters(file, {}) == {'MPC_THR_HOVER': 0.5}
+    assert needed_parameters(file, {}) == {'MPC_THR_HOVER': 0.5, 'SIM_BAT_DRAIN': 0}
 
 
 def test_the_environment_of_the_user_stays():

@@ -6,12 +6,12 @@ its clock counts those. The frame is split into equal steps no longer than the s
 without packets simulated time stands still.
 """
 
+import socket
 import time
 from typing import Any
 
 from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
-from fluid_sim_ros.mavlink.ardupilot.frame_check import FrameCheck
 from fluid_sim_ros.mavlink.ardupilot.frames import Frames, frame_us
 from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     LONGEST_PACKET,
@@ -21,11 +21,13 @@ from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     write_state,
 )
 from fluid_sim_ros.mavlink.ardupilot.json_state import StateReader
-from fluid_sim_ros.mavlink.ardupilot.station import Station
+from fluid_sim_ros.mavlink.ardupilot.station import Station, second_port
 from fluid_sim_ros.mavlink.ardupilot.udp_port import Datagram, UdpPort
 from fluid_sim_ros.mavlink.battery import Battery
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
+from fluid_sim_ros.mavlink.parameter_check import ParameterCheck, cast_value
+from fluid_sim_ros.mavlink.program.parameters import needed_parameters
 from fluid_sim_ros.mavlink.silence import REPORT_AFTER, Silence
 from fluid_sim_ros.simulation import Simulation
 
@@ -76,8 +78,12 @@ class ArduPilotBridge(AutopilotLink):
         self.port = self._port.port
         self._peer: Any = None
         self._station = Station(options.instance)
-        stated = {name: entry.value for name, entry in file.parameters.items()}
-        self._frame = FrameCheck(options.instance, stated)
+        second = second_port(options.instance)
+        self._check = ParameterCheck(
+            self.name, needed_parameters(file, options.parameters), 1,
+            lambda: socket.create_connection(second, SLICE), cast_value,
+            f'TCP port {second[1]}',
+        )  # fmt: skip
         self._heard_at = self._silent_at = 0.0
         self._silence = Silence(self.name, options, surroundings, self.counters)
         self._count = -1
@@ -100,6 +106,8 @@ class ArduPilotBridge(AutopilotLink):
             self._offset_ns = self._sent_ns + frame_ns - now_ns
         if simulation.step_count == 0:  # it has the scene's timestep again
             self._frames.forget()
+            if self._battery is not None:
+                self._battery.refill()
 
     def steps_left(self, simulation: Simulation) -> int:
         """Return the steps to the end of the frame."""
@@ -160,7 +168,7 @@ class ArduPilotBridge(AutopilotLink):
 
     def close(self) -> None:
         """Close the socket."""
-        self._frame.stop()
+        self._check.stop()
         self._port.close()
 
     # ---- one frame -------------------------------------------------------------------------
@@ -183,8 +191,8 @@ class ArduPilotBridge(AutopilotLink):
         self._frames.begin(simulation, packet.rate)
         if self._count >= 0:
             self.counters.answered += 1
-        if line := self._frame.differences():
-            self._surroundings.report('frame', line)
+        for key, line in self._check.lines().items():
+            self._surroundings.report(key, line)
         self._count = packet.count
         self._drive(packet.pulses)
         if self._battery is not None:
@@ -252,7 +260,7 @@ class ArduPilotBridge(AutopilotLink):
         self._peer = sender
         self.counters.connections += 1
         self._surroundings.inform(f'ArduPilot at {_text(sender)}')
-        self._frame.start()
+        self._check.start()
         return True
 
     def _restart(self, simulation: Simulation, packet: ServoPacket) -> None:

@@ -6,8 +6,28 @@ from fluid_sim_ros.mavlink.kernel_sockets import is_listening
 
 #: Where the first instance waits for a ground station (TCP), and from one instance to the next.
 STATION_PORT, PORT_STEP = 5760, 10
+#: Where the first instance serves its second serial port, which no ground station takes.
+SECOND_PORT = 5762
 #: Between two looks at that port [s].
 _LOOK_PERIOD = 1.0
+
+
+def second_port(instance: int) -> tuple[str, int]:
+    """
+    Return where an instance serves MAVLink besides the ground station's port.
+
+    Parameters
+    ----------
+    instance
+        Number of the autopilot on this host.
+
+    Returns
+    -------
+    address, port
+        TCP.
+
+    """
+    return '127.0.0.1', SECOND_PORT + PORT_STEP * instance
 
 
 class Station:

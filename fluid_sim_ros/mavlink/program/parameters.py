@@ -21,8 +21,8 @@ def needed_parameters(file: AutopilotFile, own: Mapping[str, float]) -> dict[str
     Parameters
     ----------
     file
-        The mapping: its parameters and, where PX4 gets the sticks of a radio control, those
-        without which it does not look at them.
+        The mapping: its parameters and, where PX4 gets the sticks of a radio control or a
+        battery, those without which it does not look at them.
     own
         The user's, which replace those of the mapping.
 
@@ -32,13 +32,15 @@ def needed_parameters(file: AutopilotFile, own: Mapping[str, float]) -> dict[str
         Value by name.
 
     """
-    sticks = {}
+    brought: dict[str, float] = {}
     if file.protocol == 'px4' and file.rc:
         count = len(file.rc)
         channels = {name: float(i + 1) for i, name in enumerate(_STICKS[:count])}
-        sticks = {'RC_CHAN_CNT': float(count), 'COM_RC_IN_MODE': 0.0, **channels}
+        brought = {'RC_CHAN_CNT': float(count), 'COM_RC_IN_MODE': 0.0, **channels}
+    if file.protocol == 'px4' and file.battery is not None:
+        brought['SIM_BAT_DRAIN'] = 0.0  # else PX4 has a battery of its own besides
     stated = {name: parameter.value for name, parameter in file.parameters.items()}
-    return sticks | stated | dict(own)
+    return brought | stated | dict(own)
 
 
 def parameters_line(parameters: Mapping[str, float]) -> str:

@@ -18,6 +18,7 @@ from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Surroundings
 from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
+from fluid_sim_ros.mavlink.px4.companion import Companion
 from fluid_sim_ros.mavlink.px4.hil_answers import Actuators, HilReader
 from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.px4.hil_state import HilState
@@ -74,6 +75,8 @@ class Px4Bridge(AutopilotLink):
         self._period = steps.numerator
         self._state = HilState(simulation, options.vehicle, file, self._sticks, options.earth)
         self._writer, self._reader = HilWriter(), HilReader()
+        limits = simulation.vehicle(options.vehicle).thrust_range[:, 1].tolist()
+        self._companion = Companion(options, file, limits)
         self._server = TcpServer(options.address, options.port or FIRST_PORT + options.instance)
         self.port = self._server.port
         self._locked = False  # it has answered: wait for it
@@ -94,6 +97,8 @@ class Px4Bridge(AutopilotLink):
         if self._now_us(simulation) < self._sent_us:
             self._offset_us += self._sent_us + PERIOD_US - self._now_us(simulation)
         self._asked_at = time.monotonic()
+        if simulation.step_count == 0:
+            self._companion.begin()
 
     def steps_left(self, simulation: Simulation) -> int:
         """Return the steps to the next exchange."""
@@ -169,6 +174,7 @@ class Px4Bridge(AutopilotLink):
 
     def close(self) -> None:
         """Close the connection and the port."""
+        self._companion.close()
         self._server.close()
 
     # ---- one exchange ----------------------------------------------------------------------
@@ -187,6 +193,7 @@ class Px4Bridge(AutopilotLink):
         self._locked = False
         self._sent_us = self._answered_us = self._offset_us = 0
         self._surroundings.inform(f'PX4 at {self._server.peer}')
+        self._companion.open(self._server.host)
         if not self._flown:
             self._flown = True
             return True
@@ -201,6 +208,7 @@ class Px4Bridge(AutopilotLink):
         if self._server.stuck:  # it was given up, and may come back
             self._server.send()
             return
+        self._companion.draw(self._thrusts, PERIOD_US * 1e-6)
         self.counters.sent += 1
         self._server.send(self._state.messages(self._writer, now_us))
 
@@ -252,6 +260,8 @@ class Px4Bridge(AutopilotLink):
         if not self._locked and not actuators.lockstep:
             self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
         self._locked = True
+        for key, line in self._companion.lines().items():
+            self._surroundings.report(key, line)
         if self._silence.reported:
             self._silence.ends(time.monotonic() - self._silent_at)
             self._reading.forget()

@@ -34,8 +34,8 @@ class TcpServer:
     ----------
     port
         Where it listens.
-    peer
-        Address of the client, or ''.
+    peer, host
+        Address of the client with and without its port, or ''.
 
     Raises
     ------
@@ -54,7 +54,7 @@ class TcpServer:
         self._spoke = False
         self._asked_at: float | None = None  # since when it owes a word [s]
         self._look_at = 0.0
-        self.peer = ''
+        self.peer = self.host = ''
 
     @property
     def connected(self) -> bool:
@@ -113,7 +113,7 @@ class TcpServer:
             return False
         self._client, self._backlog = client, b''
         self._spoke, self._asked_at = False, time.monotonic()
-        self.peer = f'{peer[0]}:{peer[1]}'
+        self.peer, self.host = f'{peer[0]}:{peer[1]}', peer[0]
         self._watch = Watch(client)
         return True
 

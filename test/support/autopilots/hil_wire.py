@@ -69,6 +69,11 @@ LAYOUTS = {
         'time_boot_ms min_distance max_distance current_distance type id orientation covariance '
         'horizontal_fov vertical_fov quaternion:4 signal_quality',
     ),
+    147: _layout(
+        'BATTERY_STATUS', 154, 'i i h 10H h BBB b',
+        'current_consumed energy_consumed temperature voltages:10 current_battery id '
+        'battery_function type battery_remaining',
+    ),
     331: _layout(
         'ODOMETRY', 91, 'Q 3f 4f 3f 3f 21f 21f BB BBb',
         'time_usec x y z q:4 vx vy vz rollspeed pitchspeed yawspeed pose_covariance:21 '
