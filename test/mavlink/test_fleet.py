@@ -193,7 +193,7 @@ def test_instances_count_by_protocol_and_ports_follow(write):
         'c: {model: x500, position: [6, 0], autopilot: ardupilot}, '
         'd: {model: x500, count: 2, spacing: 3, position: [9, 0], autopilot: ardupilot}}'
     )))  # fmt: skip
-    assert [(s.options.vehicle, s.options.protocol, s.options.instance) for s in stated] == [
+    assert [(s.vehicle, s.protocol, s.instance) for s in stated] == [
         ('a', 'px4', 1), ('b', 'px4', 0), ('c', 'ardupilot', 0), ('d_1', 'ardupilot', 1),
         ('d_2', 'ardupilot', 2),
     ]  # fmt: skip

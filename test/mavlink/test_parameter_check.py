@@ -212,3 +212,14 @@ def test_a_battery_above_65_v_needs_a_second_field(px4_door, tmp_path):
     cells = px4_door.batteries[-1]['voltages']
     assert (cells[0], cells[2:]) == (65534, [65535] * 8)
     assert 89000 < sum(cells[:2]) < 90000
+
+
+def test_an_instance_without_a_mavlink_system_of_its_own_is_told_of():
+    flight = BridgedFlight('x500_ground', 'px4', instance=60000)
+    with flight.running():
+        px4 = Px4(flight.port, silent=0)
+        for _ in range(30):
+            px4.exchange([0.8] * 4)
+        px4.close()
+    (line,) = [line for key, line in flight.reports if key == 'unread']
+    assert line.startswith('instance 60000 has no MAVLink system of its own (they end at 250)')

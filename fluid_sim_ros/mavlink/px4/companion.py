@@ -23,6 +23,8 @@ from fluid_sim_ros.mavlink.program.parameters import needed_parameters
 PX4_PORT, OUR_PORT = 14280, 14030
 #: Exchanges between two BATTERY_STATUS: 10 Hz.
 _EXCHANGES = 25
+#: Largest MAV_SYS_ID of PX4.
+_LARGEST_SYSTEM = 250
 #: MAV_COMP_ID_BATTERY, MAV_BATTERY_FUNCTION_ALL, MAV_BATTERY_TYPE_LIPO
 _BATTERY, _ALL, _LIPO = 180, 1, 1
 #: No reading of temperature [cdegC], of energy, and of a cell or pack [mV].
@@ -53,10 +55,14 @@ class Companion:
         self._port = PX4_PORT + options.instance
         self._own = OUR_PORT + options.instance
         system = options.instance + 1  # MAV_SYS_ID, as the start script sets it
-        self._mav = dialect.MAVLink(None, srcSystem=system, srcComponent=_BATTERY)
+        self._known = system <= _LARGEST_SYSTEM
+        self._mav = dialect.MAVLink(
+            None, srcSystem=min(system, _LARGEST_SYSTEM), srcComponent=_BATTERY
+        )
         self._socket: socket.socket | None = None
         self._battery = Battery(file.battery, limits) if file.battery else None
         self._draws = 0
+        self._told = False
         self._check = ParameterCheck(
             'PX4', needed_parameters(file, options.parameters), system, self._link,
             bytewise_value, f'UDP port {self._port}',
@@ -73,6 +79,8 @@ class Companion:
 
         """
         self._disconnect()
+        if not self._known:
+            return
         family = socket.AF_INET6 if ':' in host else socket.AF_INET
         link = socket.socket(family, socket.SOCK_DGRAM)
         with suppress(OSError):  # another program is the payload there: answers go to that one
@@ -111,7 +119,13 @@ class Companion:
 
     def lines(self) -> dict[str, str]:
         """Return once how PX4 is set otherwise than its mapping states; see the check."""
-        return self._check.lines()
+        if self._known or self._told:
+            return self._check.lines()
+        self._told = True
+        return {
+            'unread': f'instance {self._port - PX4_PORT} has no MAVLink system of its own '
+            f'(they end at {_LARGEST_SYSTEM}): no battery, and parameters are not compared'
+        }
 
     def close(self) -> None:
         """Close the link."""

@@ -30,7 +30,7 @@ class FleetFlight:
             inform=self.reports.append, reset=self._reset, log=self.sink,
         )  # fmt: skip
         stated = autopilots_of(self.simulation.scene, **common)
-        options = [replace(s.options, port=free_port(s.options.protocol)) for s in stated]
+        options = [replace(each, port=free_port(each.protocol)) for each in stated]
         bridges = open_bridges(self.simulation, options, surroundings)
         self.bridges = {bridge.vehicle: bridge for bridge in bridges}
         self.ports = {name: bridge.port for name, bridge in self.bridges.items()}
