@@ -90,11 +90,14 @@ def _with(signal: Signal, values: Array) -> Signal:
 
 def _shifted(signal: Signal, begin: float) -> Signal:
     times = signal.times - begin
-    return Signal(**{**signal.__dict__, 'times': times, 'gaps': find_gaps(times)})
+    gaps = () if signal.command else find_gaps(times)
+    return Signal(**{**signal.__dict__, 'times': times, 'gaps': gaps})
 
 
 def _stream(raw: RawLog, name: str) -> str:
-    """Return the name of a stream; ``type:NAME`` is the first topic of that type."""
+    """Return the name of a stream; ``type:NAME``, ``*END``: the first of that type, or end."""
+    if name.startswith('*'):
+        return next((t for t in raw.streams if t.endswith(name[1:])), '')
     if not name.startswith('type:'):
         return name
     kind = name.removeprefix('type:')
@@ -163,8 +166,8 @@ def _signal(
     values, stated = _converted(raw, quantity, place, values)
     outliers = find_outliers(quantity, values)
     return Signal(
-        quantity, times, values, source, thrusters, stated, place.truth, find_gaps(times),
-        outliers, dropped,
+        quantity, times, values, source, thrusters, stated, place.truth, place.command,
+        () if place.command else find_gaps(times), outliers, dropped,
     )  # fmt: skip
 
 

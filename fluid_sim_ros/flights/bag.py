@@ -9,6 +9,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import needed_for, printable
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
+from fluid_sim_ros.flights.own_log import run_of, with_schedule
 from fluid_sim_ros.schema.limits import check_limit
 
 #: Longer arrays (covariances, images) are left out.
@@ -56,8 +57,10 @@ def read_bag(path: Path) -> RawLog:
     types: dict[str, str] = {}
     faults: list[str] = []
     count = 0
+    in_mcap = bool(files) and files[0].suffix == '.mcap'
+    run = run_of(files[0]) if in_mcap else None
     try:
-        messages = _mcap(files) if files and files[0].suffix == '.mcap' else _any(bag)
+        messages = _mcap(files) if in_mcap else _any(bag)
         for topic, kind, log_ns, message in messages:
             count += 1
             check_limit('flight_messages', count, f'{path}: messages')
@@ -69,7 +72,9 @@ def read_bag(path: Path) -> RawLog:
             stamp = found.get('header.stamp.sec', 0) + 1e-9 * found.get('header.stamp.nanosec', 0)
             # a simulation begins at 0: a header without a stamp is one that nobody set
             has_stamp = 'header.stamp.sec' in found and (stamp > 0 or log_ns < 1_000_000)
-            time = stamp if has_stamp else log_ns * 1e-9
+            # a command of ours acts from when it was taken, not from the state that it answers
+            taken = run is not None and '/cmd/' in topic
+            time = stamp if has_stamp and not taken else log_ns * 1e-9
             rows[topic].append((time, *(found.get(name, np.nan) for name in names[topic])))
     except (McapError, AnyReaderError, SerdeError, TypesysError, *_FAULTS) as error:
         reason = printable(' '.join(str(error).split()) or type(error).__name__)
@@ -82,7 +87,11 @@ def read_bag(path: Path) -> RawLog:
         columns = {name: table[:, 1 + i] for i, name in enumerate(names[topic])}
         streams[topic] = Stream(table[:, 0], columns)
     about = {f'type of {topic}': kind for topic, kind in types.items()}
-    return RawLog(path, 'ROS bag', 'ros', streams, about, tuple(faults))
+    if run is None:
+        return RawLog(path, 'ROS bag', 'ros', streams, about, tuple(faults))
+    streams, unrepeated = with_schedule(streams, run)
+    faults += unrepeated
+    return RawLog(path, 'log of fluid_sim', 'fluid_sim', streams, about, tuple(faults))
 
 
 def _mcap(files: list[Path]) -> Iterator[_Message]:

@@ -120,6 +120,9 @@ class Signal:
         Unit and axes in the log, such as ``deg/s frd``.
     truth
         Whether a simulator wrote it, not an estimator or a sensor.
+    command
+        Whether it is exactly what was commanded, from its time on: it drives a model before
+        everything that was measured.
     gaps
         (begin, end) of each hole [s].
     outliers
@@ -136,6 +139,7 @@ class Signal:
     names: tuple[str, ...] = ()
     stated: str = ''
     truth: bool = False
+    command: bool = False
     gaps: tuple[tuple[float, float], ...] = ()
     outliers: Flags = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
     dropped: Mapping[str, int] = field(default_factory=dict)
@@ -157,7 +161,11 @@ class Signal:
             [s].
 
         """
-        if not len(self.times) or begin < self.times[0] - 1e-9 or end > self.times[-1] + 1e-9:
+        if not len(self.times) or begin < self.times[0] - 1e-9:
+            return False
+        if self.command:  # holds until the next, however late it comes
+            return True
+        if end > self.times[-1] + 1e-9:
             return False
         return not any(start < end and stop > begin for start, stop in self.gaps)
 
@@ -231,8 +239,9 @@ class Flight:
 
     @property
     def actuators(self) -> Signal | None:
-        """The most direct of the actuator signals."""
-        return next((self.signals[q] for q in ACTUATORS if q in self.signals), None)
+        """What drives a model: a stated command, else the most direct of the actuator signals."""
+        there = [self.signals[q] for q in ACTUATORS if q in self.signals]
+        return next((s for s in there if s.command), there[0] if there else None)
 
     @property
     def missing(self) -> tuple[str, ...]:

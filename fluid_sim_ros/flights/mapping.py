@@ -25,7 +25,7 @@ class SignalMap(Strict):
     ----------
     stream
         Name of the stream (topic, message type, ``table``); ``type:NAME`` is the first ROS topic
-        of that type.
+        of that type, ``*END`` the first stream whose name ends so.
     columns
         Their names, in the order of the quantity; for actuators ``NAME[*]`` is all of them.
     unit
@@ -38,6 +38,9 @@ class SignalMap(Strict):
         Added to the stream's times [s].
     truth
         Whether a simulator wrote it.
+    command
+        Of an actuator: whether a model is driven by it, through its own curves and lag, in place
+        of measured rotor speeds; these then are what the rotors have at a window's begin.
 
     """
 
@@ -48,6 +51,7 @@ class SignalMap(Strict):
     order: str = 'wxyz'
     offset: Number = 0.0
     truth: bool = False
+    command: bool = False
 
 
 def _alternatives(value: Any) -> Any:
@@ -160,6 +164,8 @@ def _check(quantity: str, place: SignalMap) -> None:
             )
     if size and len(place.columns) != size:
         raise ValueError(f'signals.{quantity}.columns: needs {size}, got {len(place.columns)}')
+    if place.command and (quantity not in ACTUATORS or quantity == 'rotor_speed'):
+        raise ValueError(f'signals.{quantity}.command: only for thrust, normalized or pulse')
     if '*' in ''.join(place.columns) and quantity not in ACTUATORS:
         raise ValueError(f'signals.{quantity}.columns: name each column')
 

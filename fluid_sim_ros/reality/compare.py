@@ -19,7 +19,8 @@ from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, without_
 from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.residuals import Residuals, residuals, summary
-from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity, lead_in
+from fluid_sim_ros.reality.spinning import first_speeds, lead_in
+from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity
 from fluid_sim_ros.schema.settings import RunSettings
 
 HORIZONS = (0.1, 0.25, 0.5, 1.0)
@@ -182,11 +183,7 @@ def fly_windows(flyer: Flyer, windows: Windows, horizons: Sequence[float]) -> Ar
     every = [max(1, round(h / step)) for h in horizons]
     start = windows.measured(0.0)
     controls = windows.controls(flyer.driven, step)[:, : every[-1]]
-    before = lead_in(flyer.driven, step)
-    spun = None
-    if before:
-        lead = windows.controls(flyer.driven, step, before)[:, : round(before / step)]
-        spun = flyer.spin_up(flyer.states(start, None, None), lead)
+    spun = first_speeds(flyer, windows, start)
     out = np.empty((len(start), len(every), start.shape[1]))
     for rows, flow, through in _flows(flyer, windows):
         if len(flow) and not through:

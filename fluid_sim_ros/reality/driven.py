@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import mujoco
+import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.flights.flight import Flight, FlightError
@@ -29,8 +30,8 @@ from fluid_sim_ros.schema.settings import RunSettings
 
 Edit = Callable[[mujoco.MjSpec], None]
 
-#: Rate at which a wind may change, in place of the medium's own [m/s^2].
-_AT_ONCE = '1e9'
+#: Slew of wind and current in place of the medium's own: no limit, no acceleration of the fluid.
+_AT_ONCE = '0'
 #: Keys of fluid_sim.thruster that a rigid body has not.
 _AERODYNAMIC = ('rotor_drag', 'rolling_moment', 'ground_effect', 'ground', 'fluid')
 
@@ -52,6 +53,8 @@ class Driven:
         Turns actuator values, shape (..., n), into controls of the vehicle's thrusters.
     lag
         Longest time constant of a rotor [s]; 0: a speed is there at once.
+    speed_columns
+        Column of the measured rotor speeds of each thruster that has a lag; empty: not measured.
     notes
         What was assumed, a line each.
 
@@ -63,6 +66,7 @@ class Driven:
     columns: tuple[int, ...]
     controls: Callable[[Array], Array]
     lag: float
+    speed_columns: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
 
 
@@ -130,7 +134,9 @@ def drive(
     model = compiled.model
     vehicle = compiled.vehicles[vehicle.name]
     controls = controls_of(model, vehicle, kind, outputs, limits)
-    return Driven(model, vehicle, kind, columns, controls, _longest_lag(model, vehicle), notes)
+    lag = _longest_lag(model, vehicle)
+    speeds = _speed_columns(model, vehicle, flight) if lag else ()
+    return Driven(model, vehicle, kind, columns, controls, lag, speeds, notes)
 
 
 def strip(spec: mujoco.MjSpec) -> None:
@@ -140,16 +146,21 @@ def strip(spec: mujoco.MjSpec) -> None:
     Parameters
     ----------
     spec
-        Changed: no textures, no materials, no contacts, no keyframes.
+        Changed: no pictures, no contacts, keyframes without activations.
 
     """
+    # nothing is deleted: after fluid 'none' MuJoCo 3.x crashes on a second deletion
     for geom in spec.geoms:
         geom.material = ''
+    for texture in spec.textures:
+        if texture.builtin:
+            texture.width = 1
+            texture.height = 6 if texture.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX else 1
+    for key in spec.keys:
+        key.act = np.zeros(0)
     for plugin in spec.plugins:
         if plugin.plugin_name == MEDIUM:  # a measured wind is there at once
             plugin.config = {**plugin.config, 'wind_slew': _AT_ONCE, 'current_slew': _AT_ONCE}
-    for each in [*spec.textures, *spec.materials, *spec.keys]:
-        spec.delete(each)
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
 
 
@@ -212,3 +223,16 @@ def _longest_lag(model: mujoco.MjModel, vehicle: Vehicle) -> float:
         if rotor is not None and model.actuator_actnum[actuator] > 0:
             longest = max(longest, *(float(w) for w in rotor.text('time_constant').split()))
     return longest
+
+
+def _speed_columns(model: mujoco.MjModel, vehicle: Vehicle, flight: Flight) -> tuple[int, ...]:
+    """Return where the measured speeds of the lagged rotors stand; nothing where one has none."""
+    signal = flight.signals.get('rotor_speed')
+    if signal is None or signal.command:
+        return ()
+    try:
+        columns = columns_of_thrusters(signal, vehicle, flight, ())
+    except FlightError:  # of some rotors only
+        return ()
+    lagged = model.actuator_actnum[vehicle.thruster_ids] > 0
+    return tuple(c for c, has in zip(columns, lagged, strict=True) if has)

@@ -6,6 +6,8 @@ from fluid_sim_ros.reality.residuals import AVERAGE, AXES
 
 #: A word is said of an axis from this share of the force on, and of its scatter.
 _WORTH, _CLEAR = 0.02, 0.25
+#: ... and where it is more than the rounding of a log [m/s^2].
+_LEAST = 0.02
 
 
 def words(numbers: dict[str, Any]) -> list[str]:
@@ -45,7 +47,7 @@ def words(numbers: dict[str, Any]) -> list[str]:
 
 def _drag(axis: str, numbers: dict[str, float]) -> str:
     slope, explains = numbers['per_speed'], numbers['per_speed_explains']
-    if explains < _CLEAR:
+    if explains < _CLEAR or numbers['rms'] < _LEAST:
         return ''
     if slope < 0:
         return (

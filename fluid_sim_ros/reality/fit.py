@@ -27,7 +27,8 @@ from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import find_parameters
 from fluid_sim_ros.reality.shooting import Shots
 from fluid_sim_ros.reality.solver import Report, Solver, Task, sandwich
-from fluid_sim_ros.reality.windows import cut, lead_in
+from fluid_sim_ros.reality.spinning import lead_in
+from fluid_sim_ros.reality.windows import cut
 
 #: Least standard deviations: [m], [rad], [m/s], [rad/s]; a log rounds.
 _LEAST_SIGMA = (1e-4, 1e-4, 1e-3, 1e-3)

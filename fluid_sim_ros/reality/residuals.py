@@ -12,7 +12,8 @@ from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.reality.driven import Driven
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.windows import ATTITUDE, VELOCITY, Windows, lead_in, state_at
+from fluid_sim_ros.reality.spinning import first_speeds
+from fluid_sim_ros.reality.windows import ATTITUDE, VELOCITY, Windows, state_at
 from fluid_sim_ros.simulation.engine import Engine
 
 #: Accelerations are averaged over this time, in the log and in the model [s]: what shakes faster
@@ -127,12 +128,7 @@ def accelerations(flyer: Flyer, flight: Flight, times: Array) -> Accelerations:
     controls = driven.controls(taken(times)[:, list(driven.columns)])
     wind = flight.signals.get('wind')
     flow = None if wind is None else wind.between(times)
-    before = lead_in(driven, flyer.timestep)
-    spun = None
-    if before:
-        points = Windows(flight, times, 0.0, {})
-        lead = points.controls(driven, flyer.timestep, before)
-        spun = flyer.spin_up(flyer.states(states, None, None), lead)
+    spun = first_speeds(flyer, Windows(flight, times, 0.0, {}), states)
     force, turn = _model(driven, states, controls, spun, flow)
     return Accelerations(force, turn, controls)
 

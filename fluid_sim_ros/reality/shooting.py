@@ -18,7 +18,8 @@ from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import Driven
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, Windows, lead_in
+from fluid_sim_ros.reality.spinning import first_speeds
+from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, Windows
 
 #: Numbers of a state's error: position, rotation vector, velocity, rates.
 SIZE = 12
@@ -198,14 +199,7 @@ class Shooter:
         return Linear(base, by_parameter, self._by_state)
 
     def _spin(self, flyer: Flyer) -> Array | None:
-        before = lead_in(flyer.driven, flyer.timestep)
-        if not before:
-            return None
-        windows = self.shots.windows
-        lead = windows.controls(flyer.driven, flyer.timestep, before)
-        return flyer.spin_up(
-            flyer.states(self.shots.start, None, None), lead[:, : round(before / flyer.timestep)]
-        )
+        return first_speeds(flyer, self.shots.windows, self.shots.start)
 
     def _fly(self, flyer: Flyer, start: Array, spun: Array | None) -> Array:
         shots, step = self.shots, flyer.timestep

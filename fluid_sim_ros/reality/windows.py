@@ -16,8 +16,6 @@ WIDTH = 13
 #: Windows begin so far apart, where the log is not sparser [s].
 _APART = 0.05
 _MOST_WINDOWS = 5000
-#: Longest time before a window that rotors are spun up in, in time constants.
-_LAGS = 8.0
 
 
 @dataclass(frozen=True)
@@ -59,7 +57,7 @@ class Windows:
 
     def controls(self, driven: Driven, timestep: float, before: float = 0.0) -> Array:
         """
-        Return the controls of each step, shape (w, steps, n).
+        Return the controls at the begin of each step, as a simulation takes them, (w, steps, n).
 
         Parameters
         ----------
@@ -75,11 +73,11 @@ class Windows:
         assert signal is not None
         first = -round(before / timestep)
         steps = np.arange(first, round(self.length / timestep))
-        middle = self.begins[:, None] + (steps + 0.5) * timestep
+        begins = self.begins[:, None] + steps * timestep
         # a speed is measured and goes on between two samples; a command holds until the next
         taken = signal.between if driven.kind == 'rotor_speed' else signal.held
-        values = taken(middle.ravel())[:, list(driven.columns)]
-        return driven.controls(values).reshape(*middle.shape, len(driven.columns))
+        values = taken(begins.ravel())[:, list(driven.columns)]
+        return driven.controls(values).reshape(*begins.shape, len(driven.columns))
 
 
 def state_at(flight: Flight, times: Array) -> Array:
@@ -135,13 +133,13 @@ def cut(
     signals = [flight.signals[name] for name in STATE]
     slowest = min(signals, key=lambda signal: signal.rate)
     low = max(begin, actuators.times[0] + before, *(signal.times[0] for signal in signals))
-    high = min(end, actuators.times[-1], *(signal.times[-1] for signal in signals)) - length
+    last = np.inf if actuators.command else actuators.times[-1]
+    high = min(end, last, *(signal.times[-1] for signal in signals)) - length
     inside = slowest.times[(slowest.times >= low - 1e-9) & (slowest.times <= high + 1e-9)]
-    chosen, last = [], -np.inf
+    chosen: list[float] = []
     for time in inside:
-        if time >= last + apart - 1e-9:
+        if not chosen or time >= chosen[-1] + apart - 1e-9:
             chosen.append(time)
-            last = time
     begins = np.array(chosen)[:: max(1, len(chosen) // _MOST_WINDOWS)]
     left_out: dict[str, int] = {}
     if len(begins):
@@ -200,21 +198,6 @@ def errors(found: Array, wanted: Array) -> dict[str, Array]:
         'attitude_deg': np.degrees(off.magnitude()).reshape(shape),
         'rates_deg_s': np.degrees(length(RATES)),
     }
-
-
-def lead_in(driven: Driven, timestep: float) -> float:
-    """
-    Return the time before a window in which its rotors are spun up [s], in whole steps.
-
-    Parameters
-    ----------
-    driven
-        Whose lag counts.
-    timestep
-        [s].
-
-    """
-    return float(np.ceil(_LAGS * driven.lag / timestep) * timestep) if driven.lag else 0.0
 
 
 def held_velocity(start: Array, after: Sequence[float]) -> Array:
