@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-full bench lint format docs clean setup-demo setup-test setup-bench setup-dev
+.PHONY: help demo test test-full bench lint format docs wheel clean setup-demo setup-test setup-bench setup-dev
 
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
@@ -19,6 +19,7 @@ help:
 	@echo 'make bench      the benchmarks, short runs into out/bench/ (FULL=1: as in test-full)'
 	@echo 'make lint       ruff, mypy, clang-format (make format: let them rewrite the files)'
 	@echo 'make docs       write the tables of the documentation; check its links and pictures'
+	@echo 'make wheel      dist/: a wheel that needs no compiler, and the source archive'
 	@echo 'make clean      remove what was built (.venv stays; rm -r .venv removes that)'
 
 setup-demo setup-test setup-bench setup-dev: setup-%:
@@ -52,6 +53,9 @@ docs: setup-demo
 	@PYTHONPATH=. $(BIN)/python .ci/doc_tables.py
 	@PYTHONPATH=. $(BIN)/python .ci/foxglove_layouts.py
 	@$(BIN)/python .ci/check_docs.py
+
+wheel:
+	@.ci/wheel
 
 clean:
 	rm -rf build install log dist out *.egg-info .pytest_cache .hypothesis .mypy_cache .ruff_cache

