@@ -62,6 +62,11 @@ def added_mass() -> str:
     return _table_of('hydro_accuracy')
 
 
+def validation() -> str:
+    """Return the table of models against measurements, by the benchmark's result."""
+    return _table_of('validation')
+
+
 def _table_of(name: str) -> str:
     path = bench_page.RESULTS / f'{name}.json'
     return bench_page.table_of(name, json.loads(path.read_text(encoding='utf-8')))
@@ -108,6 +113,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'accuracy': ('README.md', accuracy),
     'advice': ('doc/lab.md', advice),
     'added mass': ('doc/hydro.md', added_mass),
+    'validation': ('doc/validation.md', validation),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
     'px4 parameters': ('doc/autopilot_px4.md', partial(autopilot_parameters, 'px4')),
