@@ -92,7 +92,8 @@ def aerosonde() -> list[Row]:
             f'data sheet of the Aerosonde, 18 to 32 m/s; {MEMORY}', fastest,
             'motor and mass are of the book, not of that aircraft'),
         Row('aerosonde', 'angle of attack at 25 m/s', 'deg', None,
-            'no flight test of this set is public', float(np.degrees(aircraft.trim(25.0)['alpha'])), 'with SciPy to 1.4e-5'),
+            'no flight test of this set is public',
+            float(np.degrees(aircraft.trim(25.0)['alpha'])), 'with SciPy to 1.4e-5'),
     ]  # fmt: skip
 
 
