@@ -1,7 +1,7 @@
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -14,6 +14,7 @@ from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.templates import Source, StampBytes, Template
 from fluid_sim_ros.messages.topic import NEWEST, STATE, Quality, StateTopic
+from fluid_sim_ros.messages.transform_topics import MAP, transform_topics
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.vehicle import Vehicle
@@ -23,10 +24,9 @@ from fluid_sim_ros.step_clock import Beat
 
 ODOMETRY = 'nav_msgs/msg/Odometry'
 CLOCK = 'rosgraph_msgs/msg/Clock'
-TRANSFORMS = 'tf2_msgs/msg/TFMessage'
 _EVERY_STEP = Beat(Fraction(1))
 
-#: Rates [Hz] of simulated time and variances, as the node's parameters of the same names.
+#: Rates [Hz] of simulated time, variances and frames, as the node's parameters of the same names.
 DEFAULTS: dict[str, Any] = {
     'odom.rate': 100.0,
     'odom.pose_covariance': [0.0] * 6,
@@ -36,6 +36,7 @@ DEFAULTS: dict[str, Any] = {
     'joint_states.rate': 100.0,
     'clock.rate': 100.0,
     'tf.rate': 50.0,
+    'tf.root': MAP,
     'markers.rate': 20.0,
 }
 
@@ -77,7 +78,10 @@ class StateTopics:
         self.suites = {name: SensorSuite(simulation, name) for name in simulation.vehicles}
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
-        self._add_transforms(list(simulation.vehicles), rows)
+        self.topics += transform_topics(
+            simulation, self.suites, rows, self._beat('tf.rate'), self._stamp.view,
+            settings['tf.root'],
+        )  # fmt: skip
         self._add('/clock', CLOCK, 'clock.rate', {}, {}, quality=NEWEST)
         if self._refused:
             raise ConfigError('; '.join(self._refused.values()))
@@ -174,24 +178,6 @@ class StateTopics:
         self.topics.append(MarkerTopic(self._simulation, vehicle, row, self._stamp.view, period))
         self.topics += sensor_topics(self._simulation, self.suites[name], name)
 
-    def _add_transforms(self, vehicles: Sequence[str], rows: Array) -> None:
-        """Place each vehicle in the map by way of its odometry frame, and its sensors on it."""
-        transforms: list[dict[str, Any]] = []
-        sources: dict[str, Source] = {}
-        for name, row in zip(vehicles, rows, strict=True):
-            transforms.append(_transform('map', f'{name}/odom'))
-            moving = f'transforms[{len(transforms)}].transform'
-            sources[f'{moving}.translation'], sources[f'{moving}.rotation'] = _pose(row)
-            transforms.append(_transform(f'{name}/odom', f'{name}/base_link'))
-            for sensor in self.suites[name].sensors:
-                place, turn = sensor.mount.position_b, sensor.frame_quat_bs
-                transforms.append({
-                    **_transform(f'{name}/base_link', sensor.frame),
-                    'transform.translation': dict(zip('xyz', place, strict=True)),
-                    'transform.rotation': dict(zip('wxyz', turn, strict=True)),
-                })  # fmt: skip
-        self._add('/tf', TRANSFORMS, 'tf.rate', {'transforms': transforms}, sources)
-
     def _add_joint_states(self, vehicle: Vehicle) -> None:
         """
         Publish the joints below the base, then the thrusters with their force as effort.
@@ -271,11 +257,6 @@ def _pose(row: Array) -> tuple[Array, tuple[Array, Array]]:
     """Return a row's position and orientation: wxyz inside, xyzw in messages."""
     quat_wxyz = row[nat.QUATERNION]
     return row[nat.POSITION], (quat_wxyz[1:], quat_wxyz[:1])
-
-
-def _transform(parent: str, child: str) -> dict[str, Any]:
-    """Return a geometry_msgs/TransformStamped; without more, both frames are the same."""
-    return {'header.frame_id': parent, 'child_frame_id': child}
 
 
 def _is_single_joint(model: mujoco.MjModel, joint: int, base: int) -> bool:

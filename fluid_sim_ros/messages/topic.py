@@ -66,6 +66,10 @@ class StateTopic:
     new_name
         Where the topic is there for one release under the name that it had before: the name that
         it has now. Recorded only where it is asked for by name.
+    once
+        Its message never changes: it is published when the topic is made, for who subscribes
+        later, too, and stands at the beginning of a log. Whoever sends it at its period instead
+        does no harm.
     for_display
         Published at its rate of wall time at most, and also while the simulation stands.
 
@@ -82,6 +86,7 @@ class StateTopic:
     appears_later: bool = False
     new_name: str = ''
     uneven: Beat | None = None
+    once: bool = False
 
     for_display: ClassVar[bool] = False
 

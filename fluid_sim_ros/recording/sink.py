@@ -59,7 +59,8 @@ class RecordingSink:
         self.recorder = Recorder(simulation, channels, options)
         self._topics = list(enumerate(wanted))
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
-        self.period = math.gcd(*(topic.period for topic in wanted)) or NEVER
+        self._begun = False  # whether the file has what never changes
+        self.period = math.gcd(*(topic.period for topic in wanted if not topic.once)) or NEVER
 
     def write(self, simulation: Simulation) -> None:
         """
@@ -72,7 +73,10 @@ class RecordingSink:
 
         """
         tick = simulation.tick
-        due = [(i, topic) for i, topic in self._topics if tick % topic.period == 0]
+        due = [(i, t) for i, t in self._topics if tick % t.period == 0 and not t.once]
+        if not self._begun:
+            self._begun = True
+            due = [(i, t) for i, t in self._topics if t.once] + due
         self._states.take_state()
         messages = [(i, self._states.data(topic)) for i, topic in due]
         self.recorder.tick([message for message in messages if message[1]])
@@ -106,6 +110,7 @@ class RecordingSink:
     def next_segment(self) -> None:
         """Begin a new file: simulated time has been set back to 0."""
         self.recorder.next_segment()
+        self._begun = False
 
     def close(self) -> None:
         """End the file."""

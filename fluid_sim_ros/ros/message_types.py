@@ -10,6 +10,8 @@ from typing import Any
 
 from fluid_sim_ros.errors import MissingExtraError
 from fluid_sim_ros.messages.definitions import known
+from fluid_sim_ros.messages.transform_topics import TRANSFORMS
+from fluid_sim_ros.ros.transforms_type import transforms_type
 
 _NAME = re.compile(r'([a-z][a-z0-9_]*)/msg/([A-Z][A-Za-z0-9]*)')
 
@@ -39,8 +41,8 @@ def find_message_class(message: str) -> Any | None:
     package, name = match.groups()
     try:
         return getattr(import_module(f'{package}.msg'), name, None)
-    except ModuleNotFoundError:  # an optional part of ROS, such as tf2_msgs
-        return None
+    except ModuleNotFoundError:  # a part of ROS that the wheels lack
+        return transforms_type() if message == TRANSFORMS else None
 
 
 def message_class(message: str) -> Any:

@@ -7,6 +7,7 @@ from typing import Any
 
 from rclpy.node import Node
 
+from fluid_sim_ros.errors import listed
 from fluid_sim_ros.loop.recorder_port import RecorderPort
 from fluid_sim_ros.messages.state_topics import CLOCK, StateTopics
 from fluid_sim_ros.messages.topic import StateTopic
@@ -104,13 +105,28 @@ class Outputs:
         self._show_period = 1.0 / settings['markers.rate']
         self._show_due = 0.0
         self._refreshed_at = -math.inf
+        self._begun = False  # whether the log has what never changes
+        for topic in self.topics:
+            if topic.state.once:
+                topic.publish(topic.state.data())
+        self._tell_of_missing_types()
         self.refresh()
 
     def _publisher(self, state: StateTopic) -> RawPublisher | None:
-        # without an optional part of ROS (tf2_msgs) a topic can be recorded, but not published
+        # a topic whose type ROS here lacks can be recorded, but not published
         if find_message_class(state.type) is None:
             return None
         return RawPublisher(self._node, state.type, state.name, state.quality)
+
+    def _tell_of_missing_types(self) -> None:
+        missing = [topic for topic in self.topics if topic.publisher is None]
+        for kind in sorted({topic.state.type for topic in missing}):
+            names = listed(topic.name for topic in missing if topic.state.type == kind)
+            package = kind.partition('/')[0].replace('_', '-')
+            self._node.get_logger().warning(
+                f'{names}: in logs only, because ROS here lacks {kind}; install '
+                f'ros-jazzy-{package}, or use the middleware rmw_fastrtps_cpp'
+            )
 
     def destroy(self) -> None:
         """Remove the publishers from the node."""
@@ -136,6 +152,9 @@ class Outputs:
             self.refresh()
         tick = simulation.tick
         due = [topic for topic in self._active if tick % topic.period == 0]
+        if not self._begun:
+            self._begun = True
+            due = [t for t in self.topics if t.state.once and t.record >= 0] + due
         if due:
             recorded = self._publish(due)
             if recorded and self.tap is not None:
@@ -196,17 +215,20 @@ class Outputs:
                     f'{topic.name} is called {topic.state.new_name} now; the next release does '
                     'not publish the old name'
                 )
-            topic.subscribed = heard and not topic.state.for_display
+            topic.subscribed = heard and not (topic.state.for_display or topic.state.once)
             if heard and topic.state.for_display:
                 shown.append(topic)
-        self._active = [t for t in self.topics if t.subscribed or t.record >= 0]
+        self._active = [
+            t for t in self.topics if t.subscribed or (t.record >= 0 and not t.state.once)
+        ]
         self.period = math.gcd(
             self._clock.period, *(topic.period for topic in [*self._active, *shown])
         )
 
     def restart(self) -> None:
-        """Forget what belongs to the time before a reset."""
+        """Forget what belongs to the time before a reset; a log begins anew."""
         self._states.restart()
+        self._begun = False
 
     def _publish(self, topics: list[Topic]) -> list[tuple[int, bytes]]:
         """Publish the present numbers; return the messages to record."""

@@ -87,7 +87,7 @@ def test_package_xml_names_every_ros_package_that_is_used(package_xml):
     used = {name for name in used if ROS_PACKAGE.match(name)}
 
     assert used >= {'rclpy', 'nav_msgs'}
-    assert used - {'tf2_msgs'} <= named  # tf2_msgs is optional
+    assert used <= named
 
 
 def test_the_launch_file_offers_what_the_node_and_the_package_have(egg_info):

@@ -10,6 +10,7 @@ from mcap.writer import CompressionType, Writer
 from fluid_sim_ros import Simulation, cli, scene_names
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.reader import open_log
+from fluid_sim_ros.recording.replay.repetition import Repetition, has_old_transforms
 from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
 from fluid_sim_ros.recording.sink import RecordingSink
 from test.support.recorded_flights import record_flight
@@ -164,3 +165,14 @@ def test_a_change_is_drawn_beside_the_recording(tmp_path, capsys):
 def test_a_wrong_change_is_one_line(pair):
     with pytest.raises(ConfigError, match='--with'):
         parse_changes([pair])
+
+
+def test_tf_of_a_log_from_before_tf_static_is_not_compared(tmp_path):
+    record_flight(tmp_path / 'a.mcap', 'sphere', seconds=0.1, piloted=False)
+    description = open_log(tmp_path / 'a.mcap').description()
+    assert not has_old_transforms(description)
+    assert {'/tf', '/tf_static'} <= set(Repetition(description, {}).states)
+    del description.run['settings']['tf.root']  # as no earlier version had it
+    assert has_old_transforms(description)
+    states = Repetition(description, {}).states
+    assert '/tf' not in states and '/sphere/odom' in states

@@ -132,9 +132,9 @@ def test_a_log_states_the_quality_of_sensors(tmp_path):
 def test_frames_of_sensors_stand_on_the_vehicle(tmp_path):
     record_flight(tmp_path / 'a.mcap', 'x500', seconds=0.1, piloted=False)
     log = open_log(tmp_path / 'a.mcap')
-    message = next(iter(log.messages(['/tf'])))
-    found = fields(log.topic('/tf').definition, message.data)
-    children = {found[f'transforms[{i}].child_frame_id']: i for i in range(7)}
+    message = next(iter(log.messages(['/tf_static'])))
+    found = fields(log.topic('/tf_static').definition, message.data)
+    children = {found[f'transforms[{i}].child_frame_id']: i for i in range(6)}
     i = children['x500/rangefinder']
     assert found[f'transforms[{i}].header.frame_id'] == 'x500/base_link'
     w, x, y, z = (found[f'transforms[{i}].transform.rotation.{a}'] for a in 'wxyz')

@@ -71,6 +71,8 @@ class Repetition:
         by_key = {topic.name: topic for topic in self._topics.topics}
         names: dict[str, str] = run['topics']
         self._commands = {full: commands[key] for full, key in names.items() if key in commands}
+        if has_old_transforms(description):
+            del by_key['/tf']
         self.states = {full: by_key[key] for full, key in names.items() if key in by_key}
         self._late = [topic for topic in self.states.values() if topic.appears_later]
         self._look_every = math.gcd(*(topic.period for topic in self._late)) or NEVER
@@ -177,6 +179,25 @@ class Repetition:
             if not isinstance(settings['enable_wind'], bool):
                 raise LogError("an event's enable_wind must be true or false")
             simulation.enable_wind(settings['enable_wind'])
+
+
+def has_old_transforms(description: RunDescription) -> bool:
+    """
+    Return whether a log is from before ``/tf_static``, so that its ``/tf`` cannot be compared.
+
+    Parameters
+    ----------
+    description
+        Of the recorded run.
+
+    Returns
+    -------
+    bool
+        False also where the log has no ``/tf``.
+
+    """
+    run = description.run
+    return '/tf' in run['topics'].values() and 'tf.root' not in run['settings']
 
 
 def _fraction(text: Any) -> Fraction:

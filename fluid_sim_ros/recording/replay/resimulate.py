@@ -13,7 +13,7 @@ from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.log import Log, LogMessage
 from fluid_sim_ros.recording.model.trial import try_model
 from fluid_sim_ros.recording.replay.compare import Difference, compare
-from fluid_sim_ros.recording.replay.repetition import Repetition
+from fluid_sim_ros.recording.replay.repetition import Repetition, has_old_transforms
 from fluid_sim_ros.schema.limits import beyond, limit
 from fluid_sim_ros.schema.settings import RunSettings
 
@@ -151,6 +151,10 @@ _OLD_JOINTS = (
 )
 
 
+#: Of a log from before ``/tf_static``; its ``/tf`` says nothing that its odometry does not.
+_OLD_TRANSFORMS = '/tf of this log (an earlier version) holds what does not move: not compared'
+
+
 class _Comparer:
     """Compares states, and keeps those that are asked for."""
 
@@ -200,6 +204,8 @@ def _notes(description: RunDescription, log: Log) -> list[str]:
     """Return what may explain a difference."""
     versions = description.run['versions']
     notes = [f'damaged log: {fault}' for fault in log.faults]
+    if has_old_transforms(description):
+        notes.append(_OLD_TRANSFORMS)
     if versions['mujoco'] != mujoco.__version__:
         notes.append(f'recorded with MuJoCo {versions["mujoco"]}, this is {mujoco.__version__}')
     machine = f'{platform.system()} {platform.machine()}'

@@ -10,6 +10,7 @@ from rclpy.parameter import Parameter
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.loop.autopilot_port import EARTHS, LOOPBACK, PROTOCOLS, TIMEOUT_RULES
 from fluid_sim_ros.messages import commands, state_topics
+from fluid_sim_ros.messages.transform_topics import ROOTS
 from fluid_sim_ros.ros.parameters import table as parameter_table
 from fluid_sim_ros.ros.parameters.changes import ALLOW_REMOTE_PATHS, judge
 from fluid_sim_ros.ros.parameters.table import Declared
@@ -81,6 +82,12 @@ TABLE: dict[str, Declared] = {
         for name, rate in state_topics.DEFAULTS.items()
         if name.endswith('.rate') and name != 'markers.rate'
     },
+    'tf.root': Declared(
+        state_topics.DEFAULTS['tf.root'],
+        'frame that the tree on /tf and /tf_static begins with; odom and base_link leave what is '
+        'above to nodes that localise or estimate',
+        choices=ROOTS,
+    ),
     'odom.pose_covariance': Declared(
         state_topics.DEFAULTS['odom.pose_covariance'],
         '[m^2, rad^2] diagonal of the pose covariance', low=0, length=(6,),
