@@ -42,6 +42,7 @@ lint: setup-dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/python .ci/check_repository.py
 	$(BIN)/clang-format --dry-run -Werror $(shell find fluid_sim_ros/plugins/src -name "*.cc" -o -name "*.h")
 
 format: setup-dev

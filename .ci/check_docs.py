@@ -20,8 +20,7 @@ def anchors(page: Path) -> set[str]:
 def broken_links(root: Path) -> list[str]:
     """Return one line for each link that leads nowhere; links to the web are not followed."""
     faults = []
-    tops = [path for name in ('README.md', 'BENCHMARKS.md') if (path := root / name).exists()]
-    for page in [*tops, *sorted((root / 'doc').rglob('*.md'))]:
+    for page in [*sorted(root.glob('*.md')), *sorted((root / 'doc').rglob('*.md'))]:
         text = CODE.sub('', page.read_text(encoding='utf-8'))
         for link in LINK.findall(text) + HTML_LINK.findall(text):
             if re.match(r'[a-z]+:', link):

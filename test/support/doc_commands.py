@@ -37,6 +37,7 @@ NOT_RUN = {
     'flights/bin/': 'is run by .ci/wheel',
     'pipx run': 'needs pipx',
     'uvx': 'needs uv',
+    'docker ': 'needs Docker',
     'fluid_sim sweep config/sweeps/x500_gust.yaml --ray local': 'needs the extra sweep, as said',
     'fluid_sim sweep FILE.yaml --device cuda:0': 'needs a GPU and the extra warp, as said',
     'fluid_sim info flight.ulg': 'has no log of a real flight; see test/flights and test/cli',
