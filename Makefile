@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-full bench lint format docs wheel clean setup-demo setup-test setup-bench setup-dev
+.PHONY: help demo test test-full bench lint format docs site wheel clean setup-demo setup-test setup-bench setup-dev setup-docs
 
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
@@ -19,10 +19,11 @@ help:
 	@echo 'make bench      the benchmarks, short runs into out/bench/ (FULL=1: as in test-full)'
 	@echo 'make lint       ruff, mypy, clang-format (make format: let them rewrite the files)'
 	@echo 'make docs       write the tables of the documentation; check its links and pictures'
+	@echo 'make site       the documentation as pages of HTML: out/site/index.html'
 	@echo 'make wheel      dist/: a wheel that needs no compiler, and the source archive'
 	@echo 'make clean      remove what was built (.venv stays; rm -r .venv removes that)'
 
-setup-demo setup-test setup-bench setup-dev: setup-%:
+setup-demo setup-test setup-bench setup-dev setup-docs: setup-%:
 	@.ci/venv $*
 
 demo: setup-demo
@@ -54,6 +55,9 @@ docs: setup-demo
 	@PYTHONPATH=. $(BIN)/python .ci/doc_tables.py
 	@PYTHONPATH=. $(BIN)/python .ci/foxglove_layouts.py
 	@$(BIN)/python .ci/check_docs.py
+
+site: setup-docs
+	@PYTHONPATH=. $(BIN)/python .ci/site.py
 
 wheel:
 	@.ci/wheel

@@ -155,6 +155,8 @@ TEST = [
 ]  # fmt: skip
 # Other simulators, for benchmarks/peers/peer_simulators.py alone.
 PEERS = ['jsbsim>=1.3.3,<2', 'rotorpy>=3,<4']
+# The documentation site. Sphinx 9.1 needs Python 3.12.
+DOCS = ['sphinx>=8.2,<10', 'myst-parser>=4,<6', 'furo>=2025.7']
 # colcon from PyPI in the smallest set that builds, tests and reports an ament_python package.
 DEV = [
     # Formatters and checkers change their mind with each minor version.
@@ -226,6 +228,7 @@ setup(
         'test': TEST,
         'peers': PEERS,
         'dev': DEV,
+        'docs': DOCS,
     },
     entry_points={
         'console_scripts': [

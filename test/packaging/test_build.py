@@ -124,4 +124,6 @@ def test_set_up_with_ros_needs_its_python(checkout):
 def test_set_up_of_an_unknown_group(checkout):
     code, lines = set_up(checkout, 'everything')
     assert code != 0
-    assert lines == ["setup: error: unknown group 'everything'; allowed: demo, test, bench, dev"]
+    assert lines == [
+        "setup: error: unknown group 'everything'; allowed: demo, test, bench, dev, docs"
+    ]

@@ -40,6 +40,7 @@ EXTRAS = {
     'test': Part(('pytest', 'hypothesis'), 'the tests (make test)'),
     'peers': Part(('jsbsim', 'rotorpy'), 'other simulators, for one benchmark'),
     'dev': Part(('ruff', 'mypy', 'clang-format', 'colcon-core'), 'make lint, and colcon'),
+    'docs': Part(('sphinx', 'myst-parser', 'furo'), 'make site: the documentation as HTML'),
 }
 
 

@@ -1,0 +1,42 @@
+"""Settings of the documentation site; `make site` builds it, Read the Docs and rosdoc2 as well."""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(Path(__file__).with_name('_ext')))
+
+project = 'fluid_sim_ros'
+author = 'fluid_sim_ros maintainers'
+project_copyright = f'{author}, Apache-2.0'
+release = re.search(
+    r"__version__ = '(.+)'", (ROOT / 'fluid_sim_ros' / '__init__.py').read_text(encoding='utf-8')
+)[1]
+version = release
+
+extensions = ['myst_parser', 'repository_pages']
+source_suffix = {'.md': 'markdown'}
+exclude_patterns = ['_ext', '_build']
+myst_enable_extensions = ['html_image']
+myst_heading_anchors = 4
+# a block of code without a language holds commands
+highlight_language = 'bash'
+nitpicky = True
+
+html_theme = 'furo'
+html_title = f'fluid_sim_ros {release}'
+html_static_path = []
+html_copy_source = False
+html_show_sourcelink = False
+# Read by repository_pages: headings of the contents, and the pages below them in order.
+site_contents = {
+    'Start': ['install'],
+    'Vehicles': ['vehicles/README', 'new_vehicle', 'import', 'hydro', 'fleets'],
+    'The world': ['scenes', 'weather', 'waves', 'sensors'],
+    'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],
+    'Results': ['logs', 'sweep', 'lab', 'reality', 'validation'],
+    'Reference': ['parameters', 'ros_conventions', 'plugins', 'foil', 'thruster'],
+    'Understand': ['physics', 'limits', 'robustness', 'network'],
+    'Project': ['project/*', 'development', 'extending'],
+}
