@@ -151,6 +151,7 @@ TEST = [
     *RECORD, 'mcap-ros2-support>=0.5,<1', 'pyarrow>=16',
     *CHARTS,
     *HYDRO,
+    'urdf-parser-py>=0.0.4,<0.1',  # a second reader of robot descriptions
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
 # Other simulators, for benchmarks/peers/peer_simulators.py alone.

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError
 
-_PACKAGE = 'fluid_sim_ros'
+#: Name of the package, and of its folder in ``share``.
+SHARE = 'fluid_sim_ros'
 
 
 @cache
@@ -25,12 +26,12 @@ def share_folder() -> Path:
     """
     package = Path(__file__).resolve().parent
     candidates = [package.parent]
-    candidates += [parent / 'share' / _PACKAGE for parent in package.parents]
+    candidates += [parent / 'share' / SHARE for parent in package.parents]
     for folder in candidates:
         if (folder / 'models').is_dir() and (folder / 'config').is_dir():
             return folder
     raise ConfigError(
-        f'the data folders config/ and models/ of {_PACKAGE} are not found near {package}; '
+        f'the data folders config/ and models/ of {SHARE} are not found near {package}; '
         'reinstall the package'
     )
 

@@ -18,7 +18,7 @@ from fluid_sim_ros.cli.lab import advise, chart, stability
 from fluid_sim_ros.cli.parser import WRONG_INPUT, Parser
 from fluid_sim_ros.cli.reality import compare, fit
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, console
-from fluid_sim_ros.cli.vehicles import hydro, import_file, new_vehicle
+from fluid_sim_ros.cli.vehicles import hydro, import_file, new_vehicle, urdf
 from fluid_sim_ros.errors import (
     MOST_LINE,
     DivergedError,
@@ -87,6 +87,7 @@ def _build_parser() -> Parser:
     new_vehicle.add_parsers(commands, _show)
     import_file.add_parser(commands, _show)
     hydro.add_parser(commands, _show)
+    urdf.add_parser(commands, _show)
     logs.add_parsers(commands, _show)
     for each in (chart, stability, advise):
         each.add_parser(commands, _show)

@@ -10,6 +10,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
+from fluid_sim_ros.messages.description_topics import description_topic, descriptions
 from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.templates import Source, StampBytes, Template
@@ -17,6 +18,7 @@ from fluid_sim_ros.messages.topic import NEWEST, STATE, Quality, StateTopic
 from fluid_sim_ros.messages.transform_topics import MAP, transform_topics
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.scene.robot.links import joint_name
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
@@ -37,6 +39,7 @@ DEFAULTS: dict[str, Any] = {
     'clock.rate': 100.0,
     'tf.rate': 50.0,
     'tf.root': MAP,
+    'tf.links': True,
     'markers.rate': 20.0,
 }
 
@@ -59,6 +62,8 @@ class StateTopics:
         a controller can answer the state while the forces are evaluated.
     suites
         The sensors of each vehicle, sampled while their topics are asked for.
+    notes
+        What the robot descriptions cannot say of the vehicles, a line each.
 
     Raises
     ------
@@ -78,10 +83,14 @@ class StateTopics:
         self.suites = {name: SensorSuite(simulation, name) for name in simulation.vehicles}
         for index, vehicle in enumerate(simulation.vehicles.values()):
             self._add_vehicle(vehicle, rows[index])
+        beat = self._beat('tf.rate')
         self.topics += transform_topics(
-            simulation, self.suites, rows, self._beat('tf.rate'), self._stamp.view,
-            settings['tf.root'],
+            simulation, self.suites, rows, beat, self._stamp.view,
+            settings['tf.root'], settings['tf.links'],
         )  # fmt: skip
+        described = descriptions(simulation, self.suites)
+        self.topics += [description_topic(*each, beat.period) for each in described.items()]
+        self.notes = tuple(line for each in described.values() for line in each.notes)
         self._add('/clock', CLOCK, 'clock.rate', {}, {}, quality=NEWEST)
         if self._refused:
             raise ConfigError('; '.join(self._refused.values()))
@@ -186,9 +195,8 @@ class StateTopics:
         """
         model, data = self._simulation.model, self._simulation.observed
         joints = [j for j in range(model.njnt) if _is_single_joint(model, j, vehicle.body_id)]
-        names = [
-            model.joint(j).name.removeprefix(vehicle.prefix) or f'joint{j}' for j in joints
-        ] + list(vehicle.thrusters)
+        names = [joint_name(model, joint, vehicle) for joint in joints]
+        names += vehicle.thrusters
         if not names:
             return
         numbers = np.zeros((3, len(names)))

@@ -15,7 +15,8 @@ from fluid_sim_ros.messages.templates import Source, Template
 from fluid_sim_ros.messages.topic import LATCHED, StateTopic
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.scene.links import BASE_LINK, Link, link_pose, vehicle_links
+from fluid_sim_ros.scene.robot.links import BASE_LINK, ODOM, Link, link_pose, vehicle_links
+from fluid_sim_ros.scene.robot.urdf import Frame
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
@@ -23,7 +24,7 @@ from fluid_sim_ros.step_clock import Beat
 
 TRANSFORMS = 'tf2_msgs/msg/TFMessage'
 #: Frames that the tree of transforms may begin with.
-MAP, ODOM = 'map', 'odom'
+MAP = 'map'
 ROOTS = (MAP, ODOM, BASE_LINK)
 
 
@@ -34,6 +35,7 @@ def transform_topics(
     beat: Beat,
     stamp: memoryview,
     root: str,
+    links: bool = True,
 ) -> list[StateTopic]:
     """
     Return ``/tf`` and ``/tf_static``, each where it has transforms.
@@ -53,6 +55,8 @@ def transform_topics(
     root
         Where the tree begins: one of ``ROOTS``. ``odom`` leaves ``map`` to a node that localises,
         ``base_link`` leaves ``<v>/odom`` to one that estimates, too.
+    links
+        Whether what is below ``base_link`` is there; a robot_state_publisher has it, too.
 
     Returns
     -------
@@ -78,7 +82,11 @@ def transform_topics(
         if root != BASE_LINK:
             moving.append(_transform(f'{name}/{ODOM}', f'{name}/{BASE_LINK}'))
             follow(row[nat.POSITION.start : nat.QUATERNION.stop])
-        for link in links_of(simulation, vehicle, suites[name])[1:]:
+        frames_b = sensor_frames(vehicle, suites[name])
+        found = vehicle_links(model, vehicle, [frame.name for frame in frames_b])
+        if not links:
+            continue
+        for link in found[1:]:
             frames = (f'{name}/{link.parent}', f'{name}/{link.name}')
             if link.joint_id < 0:
                 fixed.append(_transform(*frames, link.position_p, link.quat_pl_wxyz))
@@ -86,9 +94,9 @@ def transform_topics(
             moving.append(_transform(*frames))
             joints.append((link, np.zeros(7)))
             follow(joints[-1][1])
-        for sensor in suites[name].sensors:
-            place, turn = sensor.mount.position_b, sensor.frame_quat_bs
-            fixed.append(_transform(f'{name}/{BASE_LINK}', sensor.frame, place, turn))
+        for frame in frames_b:
+            frames = (f'{name}/{BASE_LINK}', f'{name}/{frame.name}')
+            fixed.append(_transform(*frames, frame.position_b, frame.quat_bf_wxyz))
 
     def prepare() -> None:
         qpos = simulation.observed.qpos
@@ -117,24 +125,29 @@ def transform_topics(
     return topics
 
 
-def links_of(simulation: Simulation, vehicle: Vehicle, suite: SensorSuite) -> tuple[Link, ...]:
+def sensor_frames(vehicle: Vehicle, suite: SensorSuite) -> list[Frame]:
     """
-    Return the links of a vehicle, under names that no sensor's frame has.
+    Return the frames of a vehicle's sensors.
 
     Parameters
     ----------
-    simulation, vehicle, suite
+    vehicle, suite
         The vehicle and its sensors.
 
     Returns
     -------
-    tuple of Link
-        ``base_link`` first.
+    list of Frame
+        On base_link.
 
     """
-    prefix = f'{vehicle.name}/'
-    taken = [ODOM, *(sensor.frame.removeprefix(prefix) for sensor in suite.sensors)]
-    return vehicle_links(simulation.model, vehicle, taken)
+    return [
+        Frame(
+            sensor.frame.removeprefix(f'{vehicle.name}/'),
+            sensor.mount.position_b,
+            sensor.frame_quat_bs,
+        )
+        for sensor in suite.sensors
+    ]
 
 
 def _transform(

@@ -109,6 +109,8 @@ class Outputs:
         for topic in self.topics:
             if topic.state.once:
                 topic.publish(topic.state.data())
+        for line in self._states.notes:
+            node.get_logger().warning(f'robot_description: {line}')
         self._tell_of_missing_types()
         self.refresh()
 

@@ -1,6 +1,7 @@
 import check_docs
 import doc_tables
 import pytest
+import unit_sphere
 
 from test.support.paths import ROOT
 
@@ -35,3 +36,7 @@ def test_a_table_is_up_to_date(name):
 def test_a_table_without_marks_is_found():
     with pytest.raises(ValueError, match='no <!-- begin x -->'):
         doc_tables.with_table('text', 'x', '| a |')
+
+
+def test_the_sphere_of_robot_descriptions_is_what_its_script_makes():
+    assert (ROOT / 'models/shapes/unit_sphere.stl').read_bytes() == unit_sphere.stl()

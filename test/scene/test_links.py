@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros import Simulation
-from fluid_sim_ros.scene.links import link_pose, vehicle_links
+from fluid_sim_ros.scene.robot.links import link_pose, vehicle_links
 
 #: Each kind of joint, several of one body, joints beside the body's origin, references, bodies
 #: without names and of a name that is taken.

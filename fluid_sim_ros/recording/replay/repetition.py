@@ -12,6 +12,7 @@ from fluid_sim_ros.loop.recorder_port import EVENTS
 from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.commands import Commands
+from fluid_sim_ros.messages.description_topics import ROBOT_DESCRIPTION
 from fluid_sim_ros.messages.state_topics import StateTopics
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.recording.damage import LogError
@@ -68,9 +69,9 @@ class Repetition:
         topics = Commands(simulation, self._settings).topics
         commands = {c.name: c for c in topics if c.name not in fixed}
         self._topics = StateTopics(simulation, self._settings)
-        by_key = {topic.name: topic for topic in self._topics.topics}
         names: dict[str, str] = run['topics']
         self._commands = {full: commands[key] for full, key in names.items() if key in commands}
+        by_key = {topic.name: topic for topic in self._topics.topics if _can_differ(topic)}
         if has_old_transforms(description):
             del by_key['/tf']
         self.states = {full: by_key[key] for full, key in names.items() if key in by_key}
@@ -179,6 +180,11 @@ class Repetition:
             if not isinstance(settings['enable_wind'], bool):
                 raise LogError("an event's enable_wind must be true or false")
             simulation.enable_wind(settings['enable_wind'])
+
+
+def _can_differ(topic: StateTopic) -> bool:
+    """Return whether a topic tells of the flight; a robot description names files of its host."""
+    return not topic.name.endswith(f'/{ROBOT_DESCRIPTION}')
 
 
 def has_old_transforms(description: RunDescription) -> bool:

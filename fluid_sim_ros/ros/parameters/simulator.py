@@ -88,6 +88,10 @@ TABLE: dict[str, Declared] = {
         'above to nodes that localise or estimate',
         choices=ROOTS,
     ),
+    'tf.links': Declared(
+        state_topics.DEFAULTS['tf.links'],
+        'links and sensors are in the tree; false where a robot_state_publisher publishes them',
+    ),
     'odom.pose_covariance': Declared(
         state_topics.DEFAULTS['odom.pose_covariance'],
         '[m^2, rad^2] diagonal of the pose covariance', low=0, length=(6,),

@@ -9,7 +9,8 @@ import numpy as np
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.vehicle import Vehicle
 
-BASE_LINK = 'base_link'
+#: Frames that each vehicle has, after REP-105.
+ODOM, BASE_LINK = 'odom', 'base_link'
 _SLIDE, _BALL = mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_BALL
 
 
@@ -68,7 +69,7 @@ def vehicle_links(
         In the order of the model's bodies.
 
     """
-    names = {BASE_LINK, *taken}
+    names = {ODOM, BASE_LINK, *taken}
 
     def unique(name: str) -> str:
         while name in names:
@@ -95,11 +96,11 @@ def vehicle_links(
                 turned = anchor - parent.shift_b
                 position, quat = np.zeros(3), no_turn
             is_last = joint == joints[-1]
-            name = label if is_last else model.joint(joint).name.removeprefix(vehicle.prefix)
+            name = label if is_last else joint_name(model, joint, vehicle)
             place = _at_zero(model, joint, position + turned, quat)
             shift = anchor.copy()
             parent = Link(
-                unique(name or f'{label}_{joint - first}'), parent.name,
+                unique(name), parent.name,
                 body if is_last else -1, joint, *place, shift,
             )  # fmt: skip
             found.append(parent)
@@ -138,6 +139,28 @@ def link_pose(model: mujoco.MjModel, link: Link, qpos: Array) -> tuple[Array, Ar
         mujoco.mju_mulQuat(quat, link.quat_pl_wxyz, turn)
         return link.position_p, quat
     return _moved(model, link.joint_id, link.position_p, link.quat_pl_wxyz, float(qpos[start]))
+
+
+def joint_name(model: mujoco.MjModel, joint: int, vehicle: Vehicle) -> str:
+    """
+    Return the name of a joint in ``joint_states`` and in the URDF.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    joint
+        Its id.
+    vehicle
+        Whose it is.
+
+    Returns
+    -------
+    str
+        Without the vehicle's prefix; ``joint`` and a number where the model names none.
+
+    """
+    return model.joint(joint).name.removeprefix(vehicle.prefix) or f'joint{joint}'
 
 
 def _at_zero(
