@@ -7,6 +7,7 @@ import mujoco
 from fluid_sim_ros.errors import ConfigError, ModelError
 from fluid_sim_ros.plugins.config import BODY, FOIL, THRUSTER, medium_of, plugin_of_body
 from fluid_sim_ros.plugins.messages import load_error_line
+from fluid_sim_ros.scene.finite import check_numbers
 
 #: Passive plugins that stand on a body.
 _ON_BODIES = (BODY, FOIL)
@@ -31,13 +32,15 @@ def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
     Raises
     ------
     ModelError
-        For a spec that does not compile: one line that names the file.
+        For a spec that does not compile, or whose numbers are none: one line that names the file.
 
     """
     try:
-        return spec.compile()
+        model = spec.compile()
     except ValueError as error:
         raise ModelError(f'{path}: {load_error_line(error)}') from None
+    check_numbers(model, path)
+    return model
 
 
 def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:

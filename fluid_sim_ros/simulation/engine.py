@@ -8,6 +8,7 @@ import numpy as np
 from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError, listed
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.scene.finite import MOST
 from fluid_sim_ros.simulation.energy import EnergyBalance
 
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
@@ -208,7 +209,7 @@ class Engine:
         Raises
         ------
         FluidSimError
-            If the state is of another model.
+            If the state is of another model, or has numbers from which no positions come.
 
         """
         size = mujoco.mj_stateSize(self.model, _STATE)
@@ -216,6 +217,12 @@ class Engine:
             raise FluidSimError(
                 f'the saved state has {state.size} numbers, the model needs {size}: '
                 'it is of another model'
+            )
+        positions = state[1 : 1 + self.model.nq + self.model.nv]  # behind the time, and velocities
+        if not (np.isfinite(state).all() and (np.abs(positions) <= MOST).all()):
+            raise FluidSimError(
+                'the saved state has numbers that are NaN or infinite, or positions or velocities '
+                f'beyond {MOST:g}: no flight goes on from it'
             )
         mujoco.mj_setState(self.model, self.data, state, _STATE)
 

@@ -14,6 +14,7 @@ constexpr int kTaylor = 8;
 constexpr mjtNum kShort = 1e-2;
 constexpr int kMostDoublings = 100;   // 2^100 ticks: more than any suitable time constant has
 constexpr mjtNum kMostGap = 1e6;      // ticks that are drawn one after the other
+constexpr mjtNum kMostAhead = 1e4;    // and for a look ahead, which keeps none; a step has 1e3
 constexpr mjtNum kMostTick = 0x1p53;  // the last that has a number of its own
 // Gauss-Legendre rule of five points on [0, 1] (exact to degree 9); Abramowitz and Stegun 25.4.30.
 constexpr mjtNum kNode[5] = {0.046910077030668, 0.2307653449471585, 0.5, 0.7692346550528415,
@@ -171,11 +172,12 @@ void Begin(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream,
   Append(noise, at);
 }
 
-// Draw up to a tick. Nothing is drawn for a tick without a number of its own.
+// Draw up to a tick, anew where it is more than `most` ticks away. Nothing is drawn for a tick
+// without a number of its own.
 void Reach(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t stream, mjtNum tick,
-           const Layout& at) {
+           mjtNum most, const Layout& at) {
   if (!(tick >= -1 && tick <= kMostTick)) return;
-  if (!(*at.tick >= -1 && tick - *at.tick <= kMostGap)) {
+  if (!(*at.tick >= -1 && tick - *at.tick <= most)) {
     Begin(noise, seed, stream, std::max<mjtNum>(tick - kSamples, -1), at);
   }
   while (*at.tick < tick) Tick(noise, seed, stream, at);
@@ -190,7 +192,7 @@ void Interpolate(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t s
   if (before + 2 > state[0]) {
     mju_copy(copy, state, noise.StateSize());
     const Layout at = Parts(noise, copy);
-    Reach(noise, seed, stream, before + 2, at);
+    Reach(noise, seed, stream, before + 2, kMostAhead, at);
     state = copy;
   }
   mjtNum s = ticks - before;
@@ -246,7 +248,7 @@ void StartNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t st
                 mjtNum* state) {
   const Layout at = Parts(noise, state);
   Begin(noise, seed, stream, -1, at);
-  Reach(noise, seed, stream, Needed(noise, 0), at);
+  Reach(noise, seed, stream, Needed(noise, 0), kMostGap, at);
   SetPresent(noise, seed, stream, 0, state);
 }
 
@@ -259,7 +261,7 @@ void AdvanceNoise(const ColouredNoise& noise, std::uint64_t seed, std::uint64_t 
   const Layout at = Parts(noise, state);
   const mjtNum needed = Needed(noise, time);
   if (needed < *at.tick) StartNoise(noise, seed, stream, state);  // the time went back
-  Reach(noise, seed, stream, needed, at);
+  Reach(noise, seed, stream, needed, kMostGap, at);
   SetPresent(noise, seed, stream, time, state);
 }
 

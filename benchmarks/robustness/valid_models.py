@@ -1,0 +1,143 @@
+"""
+What becomes of 100,000 models that load, with all keys of all plugins, under ASan and UBSan.
+
+Each is drawn from a grammar over the keys of the plugins (``test.support.hostile.models``),
+stepped with RK4 and implicitfast from its start, and then from states, times and commands that
+are no numbers, infinite or huge, with everything read that the library tells. Wrong is a report
+of a sanitizer or an assertion of the C++ library, a crash, or more than 10 s of processor time for
+one model; 95 % are to load. Fixed seeds. Needs g++ with libasan and libubsan.
+Run: ``python -m benchmarks.robustness.valid_models [--quick] [--divide N]``; the result states how
+many were planned and how many of them were judged.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections import Counter, defaultdict
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import mujoco
+
+from benchmarks.common import arguments, write
+from benchmarks.plugins.plugin_sanitize import FLAGS, reports, sanitized_copy
+from fluid_sim_ros.plugins.messages import load_error_line
+from fluid_sim_ros.plugins.native import native
+from test.support.hostile.models.grammar import BODY, FOIL, MEDIUM, THRUSTER, drawn_model
+from test.support.hostile.models.states import used
+
+MODELS, QUICK = 100_000, 100
+MOST_SECONDS = 10.0
+#: Models of one process; a crash costs the rest of its portion a new start.
+PORTION = 1000
+
+
+def judge_portion(first: int, last: int) -> None:
+    """Judge the models of some seeds; print a line of JSON before and after each."""
+    native()
+    for seed in range(first, last):
+        print(json.dumps({'begun': seed}), flush=True)
+        drawn = drawn_model(seed)
+        told: dict[str, Any] = {'seed': seed, 'outcome': 'refused'}
+        begin = time.process_time()
+        try:
+            model = mujoco.MjModel.from_xml_string(drawn.xml)
+        except ValueError as error:
+            told['line'] = load_error_line(error)
+        else:
+            mujoco.set_mju_user_warning(lambda _: None)
+            told['outcome'] = 'finite' if used(model, seed) else 'not finite'
+            mujoco.set_mju_user_warning(None)
+            told['keys'] = {plugin: sorted(keys) for plugin, keys in drawn.keys.items()}
+        told['seconds'] = time.process_time() - begin
+        if told['seconds'] > MOST_SECONDS:
+            told['outcome'] = 'slow'
+        print(json.dumps(told), flush=True)
+
+
+def run_portion(
+    first: int, last: int, environment: dict[str, str], folder: Path
+) -> list[dict[str, Any]]:
+    """Judge some seeds in processes of their own, a new one after each crash."""
+    found: list[dict[str, Any]] = []
+    while first < last:
+        command = [sys.executable, '-m', __spec__.name, '--portion', f'{first} {last}']
+        done = subprocess.run(
+            command, cwd=folder, env=environment, capture_output=True, text=True, check=False
+        )
+        lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{')]
+        found += [line for line in lines if 'outcome' in line]
+        if done.returncode == 0:
+            break
+        begun = [line['begun'] for line in lines if 'begun' in line]
+        seed = begun[-1] if begun else first
+        said = reports(done.stderr) or [' '.join(done.stderr.split())[-500:]]
+        found.append({'seed': seed, 'outcome': 'crash', 'line': said[0], 'seconds': 0.0})
+        first = seed + 1
+    return found
+
+
+def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return what came of the models."""
+    seen: dict[str, Counter[str]] = defaultdict(Counter)
+    for line in found:
+        for plugin, keys in line.get('keys', {}).items():
+            seen[plugin].update(keys)
+    wrong = [line for line in found if line['outcome'] in ('crash', 'slow')]
+    loaded = [line for line in found if line['outcome'] != 'refused']
+    missing = {
+        plugin: sorted(set(native().plugin_keys(plugin)) - set(seen[plugin]))
+        for plugin in (BODY, MEDIUM, FOIL, THRUSTER)
+    }
+    return {
+        'planned': MODELS,
+        'models': len(found),
+        'wrong': len(wrong),
+        'loaded_share': len(loaded) / len(found),
+        'outcomes': dict(Counter(line['outcome'] for line in found)),
+        'most_seconds': round(max(line['seconds'] for line in found), 2),
+        'keys': {plugin: len(keys) for plugin, keys in seen.items()},
+        'keys_missing': {plugin: keys for plugin, keys in missing.items() if keys},
+        'seldom_keys': {
+            plugin: dict(keys.most_common()[-3:]) for plugin, keys in seen.items() if keys
+        },
+        'refused': dict(
+            Counter(line['line'][:100] for line in found if line['outcome'] == 'refused')
+            .most_common(10)
+        ),
+        'examples_of_wrong': wrong[:20],
+        'flags': FLAGS,
+    }  # fmt: skip
+
+
+def main() -> None:
+    """Judge, print and write JSON; fail when anything was wrong."""
+    options = arguments(
+        __doc__, 'valid_models',
+        more={'portion': 'of a process: FIRST LAST', 'divide': 'judge one part in so many'},
+    )  # fmt: skip
+    if options.portion:
+        judge_portion(*map(int, options.portion.split()))
+        return
+    options.json = options.json.resolve()
+    count = MODELS // (QUICK if options.quick else int(options.divide or 1))
+    with TemporaryDirectory() as name, ThreadPoolExecutor(os.cpu_count()) as pool:
+        folder = Path(name)
+        environment = sanitized_copy(folder)
+        portions = pool.map(
+            lambda first: run_portion(first, min(first + PORTION, count), environment, folder),
+            range(0, count, PORTION),
+        )
+        found = [line for portion in portions for line in portion]
+    result = summary(found)
+    print({key: result[key] for key in ('models', 'wrong', 'loaded_share', 'outcomes')})
+    write(options.json, result)
+    sys.exit(1 if result['wrong'] or result['keys_missing'] else 0)
+
+
+if __name__ == '__main__':
+    main()
