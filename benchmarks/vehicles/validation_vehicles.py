@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 
 from benchmarks.vehicles.validation_row import MEMORY, Row
+from fluid_sim_ros import Simulation
 from test.support import remus_runs
 from test.support import vehicle_runs as runs
 from test.support.aircraft_runs import Aircraft
@@ -24,11 +25,22 @@ HALF = 'time of free decay in heave from 0.5 to 0.25 m/s'
 #: Advance ratio at which a ducted propeller (Ka 4-70 in nozzle 19A) with the T200's K_T at rest
 #: gives no thrust.
 DUCTED_J0 = 0.73
+INFLOW = '--fluid inflow'
 
 
 def half_life(times: Array, speed: Array) -> float:
     """Return when a velocity is down to half of its start [s]."""
     return float(np.interp(-0.5, -speed / speed[0], times))
+
+
+def ahead_in_inflow(scene: str) -> float:
+    """Return the top speed ahead [m/s], held level, with the rung ``inflow``."""
+    simulation = Simulation(scene, fluid='inflow')
+    simulation.enable_wind(False)
+    simulation.data.qpos[2] = -50.0
+    count = len(simulation.vehicles[scene].thrusters)
+    runs.set_all(simulation, scene, runs.top_command('surge', count))
+    return float(runs.held(simulation, np.array([1.0, 0, 0, 0]), 8.0)[-1, 0])
 
 
 def bluerov2() -> list[Row]:
@@ -41,7 +53,8 @@ def bluerov2() -> list[Row]:
     light = float(runs.top_speed('bluerov2', 'surge'))
     surge = 'its quadratic drag, 141 N s2/m2, is four times that of the other published sets'
     return [
-        Row('bluerov2_heavy', 'top speed ahead', 'm/s', 1.5, MAKER, heavy['surge'], surge),
+        Row('bluerov2_heavy', 'top speed ahead', 'm/s', 1.5, MAKER, heavy['surge'], surge,
+            ahead_in_inflow('bluerov2_heavy'), INFLOW),
         Row('bluerov2_heavy', 'top speed ahead', 'm/s', by_tank[0],
             f'{TANK_SOURCE}, 172 N without inflow loss', heavy['surge'], surge),
         Row('bluerov2_heavy', 'top speed sideways', 'm/s', by_tank[1],
@@ -50,7 +63,8 @@ def bluerov2() -> list[Row]:
         Row('bluerov2_heavy', HALF, 's', tank, TANK_SOURCE, half_life(times, speed),
             'the sets differ in drag, 190 and 74 N s2/m2, and added mass, 18.7 and 13.3 kg'),
         Row('bluerov2', 'top speed ahead', 'm/s', 1.5, MAKER, light,
-            'the thrusters lose nothing by the inflow, and no tether drags'),
+            'the thrusters lose nothing by the inflow, and no tether drags',
+            ahead_in_inflow('bluerov2'), INFLOW),
     ]  # fmt: skip
 
 
@@ -114,7 +128,9 @@ def t200() -> list[Row]:
             t200_thrust(0.0), 'the table is the sheet'),
         Row('T200', 'thrust at 1 m/s of inflow', 'N', ducted,
             f'ducted series Ka 4-70, nozzle 19A (Oosterveld 1970), at equal K_T at rest; {MEMORY}',
-            t200_thrust(1.0), 'the sheet is at rest; no T200 measured in inflow was found'),
+            t200_thrust(1.0), 'the sheet is at rest; no T200 measured in inflow was found',
+            t200_thrust(1.0, inflow='true', zero_thrust_advance=DUCTED_J0, diameter=diameter),
+            INFLOW),
     ]  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from typing import Any
 SHELLS = ('bash', 'zsh', 'fish')
 #: Integrators and rungs as people write them; here, because MuJoCo takes its time to load.
 INTEGRATORS = ('Euler', 'RK4', 'implicit', 'implicitfast', 'discrete')
-FLUIDS = ('none', 'inertia', 'ellipsoid', 'no_added_mass')
+FLUIDS = ('none', 'inertia', 'ellipsoid', 'no_added_mass', 'inflow')
 
 Completer = Callable[..., Iterable[str]]
 

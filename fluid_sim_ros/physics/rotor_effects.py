@@ -123,3 +123,64 @@ def gyroscopic_torque(
     """
     momentum = inertia * spin * np.asarray(omega)[..., np.newaxis] * vectors(axis_b, 'axis_b')
     return -np.cross(vectors(omega_b, 'omega_b'), momentum)
+
+
+def inflow_thrust(
+    omega: ArrayLike,
+    thrust: ArrayLike,
+    inflow: ArrayLike,
+    *,
+    zero_advance: float,
+    diameter: float,
+    density: float | None = None,
+    measured_advance: float = 0.0,
+) -> tuple[Array, Array]:
+    """
+    Return thrust in an axial inflow, and the change of the shaft torque, by the thrust at rest.
+
+    Without ``density`` the straight line T = T0 (1 - J/J0) of Blanke (1981) and Fossen (2021),
+    ch. 9, through T0 at J_m. With it momentum theory (Leishman 2006, ch. 2 and 3): blades with a
+    pitch of J0 D in the flow that the disc draws, T/T0 = (V_p - V - w)/(V_p - v_h) and
+    T = 2 rho A (V + w) w, V_p = J0 n D; the torque changes by that of T (V + w)/omega. It exists
+    where v_h < V_p, and is bounded for any inflow from behind, where it is a continuation (no
+    vortex ring state). Reverse is the mirror image.
+
+    Parameters
+    ----------
+    omega
+        Speed of the rotor [rad/s], shape (...).
+    thrust
+        T0 [N], of the sign of omega, shape (...).
+    inflow
+        V along the thrust axis relative to the fluid [m/s], shape (...).
+    zero_advance
+        J0 = V/(n D) at which the thrust vanishes [-].
+    diameter
+        D [m].
+    density
+        rho [kg/m^3], for momentum theory.
+    measured_advance
+        J_m at which T0 was measured [-], below J0; 0 with momentum theory.
+
+    Returns
+    -------
+    thrust, torque
+        [N], shape (...); [N m], 0 without ``density``.
+
+    """
+    w, t0 = np.asarray(omega, dtype=np.float64), np.asarray(thrust, dtype=np.float64)
+    pitch_speed = zero_advance * positive(diameter, 'diameter [m]') * np.abs(w) / (2 * np.pi)
+    moves = pitch_speed > 1e-9
+    speed = np.where(moves, pitch_speed, 1.0)
+    v = np.where(moves, np.where(w < 0, -1.0, 1.0) * np.asarray(inflow), 0.0)
+    if density is None:
+        measured = measured_advance / zero_advance
+        return np.where(moves, t0 * (1 - v / speed) / (1 - measured), t0), np.zeros_like(t0)
+    area = np.pi / 4 * diameter**2
+    hover = np.sqrt(np.abs(t0) / (2 * density * area))
+    # 2 rho A (V + w) w = T0 (V_p - V - w)/(V_p - v_h), solved for w
+    ratio = hover**2 / np.where(moves, speed - hover, 1.0)
+    drawn = (np.sqrt((v + ratio) ** 2 + 4 * ratio * (speed - v)) - v - ratio) / 2
+    found = np.where(moves, t0 * (speed - v - drawn) / np.where(moves, speed - hover, 1.0), t0)
+    torque = np.where(moves, (found * (v + drawn) - t0 * hover) / np.where(moves, np.abs(w), 1), 0)
+    return found, torque

@@ -50,7 +50,8 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
     No fluid, inertia boxes, or stock ellipsoids: what plugins add (buoyancy, added mass, damping,
     a medium) is taken away with them; a body that they kept afloat gets gravcomp instead, so that
     a scene stays what it is. ``no_added_mass``: all that the scene has, but without the inertia of
-    the added mass.
+    the added mass. ``inflow``: all that the scene has, and thrusters that lose thrust by the
+    inflow where the model states at which advance ratio none is left (``zero_thrust_advance``).
 
     Parameters
     ----------
@@ -69,6 +70,9 @@ def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:
     """
     if fluid == 'no_added_mass':
         _take_added_mass_away(spec, path)
+        return
+    if fluid == 'inflow':
+        _let_inflow_act(spec, path)
         return
     _take_plugins_away(spec, path)
     if fluid == 'none':
@@ -112,6 +116,18 @@ def _take_added_mass_away(spec: mujoco.MjSpec, path: Path) -> None:
         raise ConfigError(f"fluid 'no_added_mass': {path} states no added_mass to leave out")
     for plugin in stated:
         plugin.config = {**plugin.config, 'added_mass': '0 0 0 0 0 0'}
+
+
+def _let_inflow_act(spec: mujoco.MjSpec, path: Path) -> None:
+    """Switch on the loss by inflow where a thruster states it; refuse a model that states none."""
+    stated = [plugin for plugin in spec.plugins if 'zero_thrust_advance' in plugin.config]
+    if not stated:
+        raise ConfigError(
+            f"fluid 'inflow': no thruster of {path} states zero_thrust_advance, at which its "
+            'thrust vanishes'
+        )
+    for plugin in stated:
+        plugin.config = {**plugin.config, 'inflow': 'true'}
 
 
 def _take_plugins_away(spec: mujoco.MjSpec, path: Path) -> None:

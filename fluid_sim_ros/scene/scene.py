@@ -198,7 +198,11 @@ class Scene:
             if self.fleet is not None:
                 check_rung(spec, fluid, self.name)
             force_fluid(spec, fluid, source)
-        if self.waves is not None and fluid in (None, 'no_added_mass'):  # others: no surface
+        if self.waves is not None and fluid in (
+            None,
+            'no_added_mass',
+            'inflow',
+        ):  # others: no surface
             add_waves(spec, self.waves.keys(seed), self.name)
         if fluid != 'none':
             apply_weather(spec, self.wind, self.current, seed, self.name)

@@ -15,7 +15,7 @@ INTEGRATORS = {
 }
 
 #: Fluid rungs that a run can force on a scene; see ``scene.fluid_models``.
-FLUID_RUNGS = ('none', 'inertia', 'ellipsoid', 'no_added_mass')
+FLUID_RUNGS = ('none', 'inertia', 'ellipsoid', 'no_added_mass', 'inflow')
 
 
 def _integrator(name: str) -> str:

@@ -74,7 +74,9 @@ def add_part(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument('--timestep', type=above(0), metavar='S', help="[s] (default the model's)")
     parser.add_argument('--integrator', metavar='NAME', help="default the model's")
-    parser.add_argument('--fluid', metavar='RUNG', help='none, inertia, ellipsoid, no_added_mass')
+    parser.add_argument(
+        '--fluid', metavar='RUNG', help='none, inertia, ellipsoid, no_added_mass, inflow'
+    )
 
 
 def part_of(arguments: argparse.Namespace) -> 'Part':

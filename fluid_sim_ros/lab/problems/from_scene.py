@@ -69,7 +69,7 @@ def _poorer(scene: Scene) -> list[str]:
     model = scene.compile().model
     stock = model.opt.density > 0 or model.opt.viscosity > 0
     if has_body_plugins(scene.read_model()):
-        below = list(FLUID_RUNGS)
+        below = [rung for rung in FLUID_RUNGS if rung != 'inflow']  # that one lies above
     elif stock and np.any(model.geom_fluid[:, 0] > 0):
         below = ['none', 'inertia']
     else:

@@ -118,7 +118,7 @@ def check_rung(spec: mujoco.MjSpec, fluid: str, where: str) -> None:
     if any(plugin.name.endswith(f'/{_IN_THE_MEDIUM}') for plugin in spec.plugins):
         raise ConfigError(
             f"{where}: fluid '{fluid}' knows one fluid everywhere, and the vehicles are in two; "
-            'allowed: none, no_added_mass'
+            'allowed: none, no_added_mass, inflow'
         )
 
 

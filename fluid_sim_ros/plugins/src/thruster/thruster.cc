@@ -223,6 +223,11 @@ RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t,
     out.inflow += flows[i].weight * inflow;
     out.thrust += scale * (ground * at_rest + InflowThrust(t.curve, out.omega, inflow));
     out.torque += scale * (torque + InflowTorque(t.curve, out.omega, inflow));
+    if (t.loss.law != InflowLaw::kNone) {
+      const LoadChange change = InflowChange(t.loss, out.omega, at_rest, inflow);
+      out.thrust += scale * change.thrust;
+      if (torque != 0) out.torque += scale * change.torque;
+    }
     AddDrag(t, axis_w, v, inflow, scale, &out);
   }
   return out;

@@ -14,6 +14,7 @@
 
 #include "medium/medium.h"
 #include "shared/terms.h"
+#include "thruster/inflow.h"
 #include "thruster/thruster_curve.h"
 
 namespace fluid_sim {
@@ -29,6 +30,7 @@ struct Thruster {
 
   Command command = Command::kNewton;
   RotorCurve curve;
+  InflowLoss loss;                     // off unless the model asks for it
   std::vector<Knot> table;             // thrust by pulse width
   mjtNum limit[2] = {0, 0};            // largest speed forward and in reverse [rad/s]
   mjtNum pwm[3] = {1100, 1500, 1900};  // full reverse, neutral, full forward [us]
@@ -48,7 +50,8 @@ struct Thruster {
   bool passive() const { return inertia > 0 || drag[0] > 0 || drag[1] > 0 || rolling > 0; }
   bool has_drag() const { return drag[0] > 0 || drag[1] > 0 || rolling > 0; }
   bool thrust_needs_flow() const {
-    return curve.kind == Curve::kCoefficients || works != Works::kConstant;
+    return curve.kind == Curve::kCoefficients || works != Works::kConstant ||
+           loss.law != InflowLaw::kNone;
   }
 };
 

@@ -180,9 +180,11 @@ bool ReadFluid(const mjModel* m, const Config& config, Thruster* out) {
   if (!config.Number("density", kTiny, kInfinity, "a number > 0 [kg/m^3]", &curve.density)) {
     return false;
   }
-  const bool needed = coefficients || out->works == Works::kLocal;
+  const bool momentum = config.Text("inflow_law") == "momentum";
+  const bool needed = coefficients || momentum || out->works == Works::kLocal;
   if (!needed && config.Has("density")) {
-    return config.Fail("density needs curve=\"coefficients\" or fluid=\"local\"");
+    return config.Fail(
+        "density needs curve=\"coefficients\", inflow_law=\"momentum\" or fluid=\"local\"");
   }
   if (needed && curve.density <= 0) {
     return config.Fail("the density that the curve holds for is missing; give density [kg/m^3]");
@@ -220,7 +222,11 @@ const char* const kThrusterAttributes[] = {"command",
                                            "rolling_moment",
                                            "ground_effect",
                                            "ground",
-                                           "fluid"};
+                                           "fluid",
+                                           "inflow",
+                                           "inflow_law",
+                                           "zero_thrust_advance",
+                                           "measured_advance"};
 const int kThrusterAttributeCount = sizeof(kThrusterAttributes) / sizeof(kThrusterAttributes[0]);
 
 bool ReadThruster(const mjModel* m, int instance, Thruster* out) {
@@ -232,7 +238,7 @@ bool ReadThruster(const mjModel* m, int instance, Thruster* out) {
   if (!ReadCurve(config, out)) return false;
   if (out->curve.kind != Curve::kTable && !ReadPulse(config, out)) return false;
   return ReadRotor(m, config, out) && ReadGround(config, out) && ReadFluid(m, config, out) &&
-         ReadLag(m, config, out);
+         ReadInflow(config, out) && ReadLag(m, config, out);
 }
 
 }  // namespace fluid_sim

@@ -15,6 +15,9 @@ bool ReadPair(const Config& config, const char* key, mjtNum low, const char* all
 // The key must be given; `what` says with what.
 bool Require(const Config& config, const char* key, const char* what);
 
+// What the inflow takes, if it is asked for; after the curve and the density it holds for.
+bool ReadInflow(const Config& config, Thruster* out);
+
 // The curve and its limits; keys that it does not read are refused.
 bool ReadCurve(const Config& config, Thruster* out);
 
