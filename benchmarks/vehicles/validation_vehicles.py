@@ -111,10 +111,10 @@ def aerosonde() -> list[Row]:
     ]  # fmt: skip
 
 
-def t200_thrust(inflow: float, **more: Any) -> float:
+def t200_thrust(advance: float, **more: Any) -> float:
     """Return the thrust [N] at full command, 16 V, in a speed of advance [m/s]."""
     model, data = load(rotor_world({**T200, **more}, axis='1 0 0'))
-    data.ctrl[0], data.qvel[0] = 1900.0, inflow
+    data.ctrl[0], data.qvel[0] = 1900.0, advance
     mujoco.mj_forward(model, data)
     return read(model, data)['thrust']
 
