@@ -137,13 +137,16 @@ SWEEP = [*PARQUET, 'ray>=2.40,<3']
 # Sweeps of stock scenes as worlds of mujoco_warp; each minor version is tested anew.
 WARP = ['mujoco-warp>=4.0,<4.1', 'warp-lang>=1.19,<1.20', 'pyarrow>=16']
 RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
+# The page of the live view. view/web/front.py touches what viser keeps to itself: each minor
+# version is tested anew.
+VIEW = ['viser>=1.1,<1.2', 'trimesh>=4.8,<6']
 # Coefficients of a mesh, and vehicles from meshes and URDF.
 HYDRO = [
     'capytaine>=3.0,<3.1', 'trimesh>=5.2,<6', 'manifold3d>=3.5,<4',
     'fast_simplification>=0.2,<0.3', 'pycollada>=0.9,<1', 'xacro>=2.1,<3',
 ]  # fmt: skip
 # All that the commands of README and doc/ use, on one machine without a GPU.
-ALL = [*ROS, *MAVLINK, *RECORD, *FLIGHTS, *RENDER, *CHARTS, *HYDRO, *SWEEP]
+ALL = [*ROS, *MAVLINK, *RECORD, *FLIGHTS, *RENDER, *CHARTS, *HYDRO, *SWEEP, *VIEW]
 TEST = [
     *MAVLINK,
     *FLIGHTS,
@@ -151,6 +154,7 @@ TEST = [
     *RECORD, 'mcap-ros2-support>=0.5,<1', 'pyarrow>=16',
     *CHARTS,
     *HYDRO,
+    *VIEW,
     'urdf-parser-py>=0.0.4,<0.1',  # a second reader of robot descriptions
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
@@ -220,6 +224,7 @@ setup(
         'record': RECORD,
         'flights': FLIGHTS,
         'render': RENDER,
+        'view': VIEW,
         'parquet': PARQUET,
         'sweep': SWEEP,
         'warp': WARP,

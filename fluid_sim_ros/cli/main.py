@@ -19,6 +19,7 @@ from fluid_sim_ros.cli.parser import WRONG_INPUT, Parser
 from fluid_sim_ros.cli.reality import compare, fit
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, console
 from fluid_sim_ros.cli.vehicles import hydro, import_file, new_vehicle, urdf
+from fluid_sim_ros.cli.view import command as view
 from fluid_sim_ros.errors import (
     MOST_LINE,
     DivergedError,
@@ -94,6 +95,7 @@ def _build_parser() -> Parser:
     compare.add_parser(commands, _show)
     fit.add_parser(commands, _show)
     sweep.add_parser(commands, _show)
+    view.add_parser(commands, _show)
 
     commands.add_parser(
         'demo', add_help=False, help='quadrotor in a gust: simulator and controller over ROS 2'

@@ -47,7 +47,7 @@ NOT_RUN = {
     'fluid_sim repair broken.mcap whole.mcap': 'has no damaged file; see test_recorder.py',
 }
 #: What goes on until it is ended, by a part of it.
-ENDLESS = ('fluid_sim_node', '_controller', '--autopilot')
+ENDLESS = ('fluid_sim_node', '_controller', '--autopilot', 'fluid_sim view')
 #: Options that keep a command short here, by its beginning; in `make test-full` it runs as shown.
 SHORTER = {
     'fluid_sim run rov --current': '--duration 2',
@@ -156,7 +156,7 @@ def run_all(
             continue
         text = command
         if any(part in command for part in ENDLESS):
-            if 'fluid_sim run' in text:
+            if 'fluid_sim run' in text or 'fluid_sim view' in text:
                 text = f'{text} --port {free_port()}'
             elif 'px4' in text:
                 text = f'{text} -p autopilot.port:={free_port()}'

@@ -25,6 +25,7 @@ EXTRAS = {
         ('pyulog', 'rosbags', 'pymavlink'), 'info, compare and fit of logs of other software'
     ),
     'render': Part(('imageio-ffmpeg', 'pillow'), 'render: a log as a film'),
+    'view': Part(('viser',), 'view: a scene, a log or a node in the browser'),
     'mavlink': Part(('pymavlink',), '--autopilot px4'),
     'parquet': Part(('pyarrow',), 'sweep on threads, and export --parquet'),
     'sweep': Part(('pyarrow', 'ray'), 'sweep --ray, on processes or a cluster'),

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fluid_sim_ros.output.new_file import new_file
+from fluid_sim_ros.output.term_colors import COLORS, term_color
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.pictures.tracks import Track, Tracks
 
@@ -21,8 +22,6 @@ _STYLE: Any = {
     'axes.spines.right': False, 'figure.dpi': 110, 'legend.frameon': False,
     'axes.titlesize': 10, 'axes.titleweight': 'bold', 'axes.titlelocation': 'left',
 }  # fmt: skip
-#: Distinguishable for colour-blind readers (Okabe and Ito 2008).
-_COLORS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#000000', '#999999')
 _AXES = ('east x', 'north y', 'up z')
 _EULER = ('roll', 'pitch', 'yaw')
 #: No axis is shorter than this: what is smaller is no motion and no force, but rounding.
@@ -113,8 +112,8 @@ def both_flights(recorded: Track, changed: Track, change: str, path: Path) -> Pa
         for column, (title, names, old, new) in enumerate(groups, 1):
             for row, name in enumerate(names):
                 axes = figure.add_subplot(grid[row, column])
-                axes.plot(recorded.times, old[:, row], color=_COLORS[0], label='recorded')
-                axes.plot(changed.times, new[:, row], color=_COLORS[1], ls='--', label=label)
+                axes.plot(recorded.times, old[:, row], color=COLORS[0], label='recorded')
+                axes.plot(changed.times, new[:, row], color=COLORS[1], ls='--', label=label)
                 axes.set_title(f'{name}, {title}')
                 least_span(axes, title)
         figure.axes[1].legend()
@@ -159,7 +158,7 @@ def _save(figure: Figure, path: Path) -> Path:
 
 def _path(axes: Any, tracks: list[Track]) -> None:
     labels = ('recorded', 'changed') if len(tracks) > 1 else ('',)
-    for track, color, label in zip(tracks, _COLORS, labels, strict=False):
+    for track, color, label in zip(tracks, COLORS, labels, strict=False):
         x, y, z = track.position_w.T
         axes.plot(x, y, z, color=color, label=label)
         axes.scatter(x[:1], y[:1], z[:1], color=color, marker='o')
@@ -182,7 +181,7 @@ def _path(axes: Any, tracks: list[Track]) -> None:
 
 def _lines(axes: Axes, times: Array, values: Array, names: Any, title: str) -> None:
     for i, name in enumerate(names):
-        axes.plot(times, values[:, i], color=_COLORS[i], label=name)
+        axes.plot(times, values[:, i], color=COLORS[i], label=name)
     axes.set_title(title)
     axes.legend(ncols=3, fontsize=8)
 
@@ -196,11 +195,10 @@ def _terms(axes: Axes, track: Track, part: slice, title: str) -> None:
     largest = max((float(size.max()) for size in sizes.values()), default=0.0)
     axes.set_title(title)
     shown = [term for term, size in sizes.items() if size.max() > _NOTABLE * largest]
-    for i, term in enumerate(sorted(shown, key=lambda term: term != 'total')):
-        color = '#000000' if term == 'total' else _COLORS[(i - 1) % len(_COLORS)]
+    for term in sorted(shown, key=lambda term: term != 'total'):
         width = 1.8 if term == 'total' else 1.0
         times = track.wrenches[term][:, 0]
-        axes.plot(times, sizes[term], color=color, lw=width, label=term)
+        axes.plot(times, sizes[term], color=term_color(term), lw=width, label=term)
     if shown:
         axes.legend(ncols=2, fontsize=8)
     else:
@@ -212,7 +210,7 @@ def _commands(axes: Axes, track: Track) -> None:
     count = 0
     for name, rows in track.commands.items():
         for i in range(1, rows.shape[1]):
-            color = _COLORS[count % len(_COLORS)]
+            color = COLORS[count % len(COLORS)]
             axes.step(
                 rows[:, 0], rows[:, i], where='post', color=color, lw=1.0,
                 label=f'{name} {i}',
@@ -225,6 +223,6 @@ def _commands(axes: Axes, track: Track) -> None:
 
 
 def _speed(axes: Axes, factor: Array) -> None:
-    axes.plot(factor[:, 0], factor[:, 1], color=_COLORS[0])
+    axes.plot(factor[:, 0], factor[:, 1], color=COLORS[0])
     axes.set_title('real-time factor of the recording')
     axes.set_ylim(bottom=0)

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.native import native
+from fluid_sim_ros.plugins import surface
 
 #: Triangles per side of the patch / 2, and the size of a cell in extents of the vehicle.
 _CELLS, _CELL = 48, 0.5
@@ -30,12 +30,8 @@ def surface_heights(model: mujoco.MjModel, data: mujoco.MjData, points: Array) -
         [m], shape (n,); None for a model whose surface has no waves.
 
     """
-    points = np.ascontiguousarray(points, dtype=np.float64)
-    heights = np.empty(len(points))
-    kind = native().surface(
-        model._address, data._address, points.ctypes.data, len(points), heights.ctypes.data
-    )
-    return heights if kind == 2 else None
+    kind, heights = surface.surface_heights(model, data, points)
+    return heights if kind == surface.WAVES else None
 
 
 def add_waves(

@@ -1,0 +1,269 @@
+"""A model posed as a frame has it: bodies, force arrows, water; without drawing anything."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins import surface
+from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
+from fluid_sim_ros.view.frame import Frame
+
+#: A force equal to the weight is drawn this long, in extents of the vehicle.
+LENGTH = 2.0
+#: Forces below this share of the weight are not drawn.
+_LEAST = 1e-3
+#: Without a weight to compare with [N].
+_NO_WEIGHT = 1.0
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """
+    A force to draw.
+
+    Attributes
+    ----------
+    term
+        Fluid term, ``total``, ``thrust`` or ``weight``.
+    start, along
+        World axes [m], shape (3,): where it acts, and its drawn length.
+    newtons
+        Its size [N].
+
+    """
+
+    term: str
+    start: Array
+    along: Array
+    newtons: float
+
+
+class Stage:
+    """
+    Poses a model.
+
+    Parameters
+    ----------
+    model
+        Only read; the data is the stage's own.
+    vehicles
+        By name, in the order of a frame's rows.
+
+    Attributes
+    ----------
+    data
+        As the last ``pose`` left it.
+    extents
+        How far each vehicle reaches from its origin [m].
+
+    """
+
+    def __init__(self, model: mujoco.MjModel, vehicles: Mapping[str, Vehicle]) -> None:
+        self.model, self.vehicles = model, vehicles
+        self.data = mujoco.MjData(model)
+        self.extents = {v.name: extent(model, v.body_id) for v in vehicles.values()}
+        self._weights = {
+            v.name: weight_in_air(model, v.body_id) or _NO_WEIGHT for v in vehicles.values()
+        }
+
+    def pose(self, frame: Frame) -> None:
+        """
+        Pose the model.
+
+        Parameters
+        ----------
+        frame
+            Its ``qpos`` and ``time`` are taken.
+
+        """
+        self.data.qpos[:] = frame.qpos
+        self.data.time = frame.time
+        mujoco.mj_kinematics(self.model, self.data)
+
+    def arrows(self, frame: Frame, name: str, terms: Iterable[str], scale: float) -> list[Arrow]:
+        """
+        Return the forces on a vehicle as arrows, of the last posed frame.
+
+        Parameters
+        ----------
+        frame
+            With its forces.
+        name
+            Of the vehicle.
+        terms
+            That are wanted.
+        scale
+            Times the length of ``LENGTH`` extents for the vehicle's weight.
+
+        Returns
+        -------
+        list
+            From its base_link origin (``weight`` from its centre of mass); none for forces below a
+            thousandth of the weight.
+
+        """
+        vehicle = self.vehicles[name]
+        body, weight = vehicle.body_id, self._weights[name]
+        rotation = self.data.xmat[body].reshape(3, 3)
+        per_newton = LENGTH * self.extents[name] * scale / weight
+        forces = frame.forces(list(self.vehicles).index(name), self._terms(terms))
+        arrows = []
+        for term in terms:
+            start = self.data.xpos[body].copy()
+            if term == 'weight':
+                force_w = np.array([0.0, 0.0, -weight])
+            elif term in forces:
+                force_w = rotation @ forces[term]
+            else:
+                continue
+            newtons = float(np.linalg.norm(force_w))
+            if newtons > _LEAST * weight:
+                arrows.append(Arrow(term, start, force_w * per_newton, newtons))
+        return arrows
+
+    @staticmethod
+    def _terms(terms: Iterable[str]) -> list[str]:
+        return [term for term in terms if term not in ('total', 'thrust', 'weight')]
+
+    def thrusters(self, frame: Frame, name: str, scale: float) -> list[Arrow]:
+        """
+        Return the force of each thruster of a vehicle, where it acts.
+
+        Parameters
+        ----------
+        frame
+            With the forces of the actuators.
+        name
+            Of the vehicle.
+        scale
+            As of ``arrows``.
+
+        Returns
+        -------
+        list
+            None for thrusters that do not act at a site.
+
+        """
+        model, vehicle, weight = self.model, self.vehicles[name], self._weights[name]
+        per_newton = LENGTH * self.extents[name] * scale / weight
+        found = []
+        for actuator, effort in zip(vehicle.thruster_ids, vehicle.effort_scale, strict=True):
+            if model.actuator_trntype[actuator] != mujoco.mjtTrn.mjTRN_SITE:
+                continue
+            site = int(model.actuator_trnid[actuator, 0])
+            gear = model.actuator_gear[actuator, :3]
+            size = float(np.linalg.norm(gear))
+            body = int(model.site_bodyid[site])
+            force = float(frame.force[actuator]) * float(effort)
+            if size == 0.0 or not np.isfinite(force) or abs(force) < _LEAST * weight:
+                continue
+            rotation = np.zeros(9)
+            mujoco.mju_quat2Mat(rotation, model.site_quat[site])
+            axis_b = rotation.reshape(3, 3) @ (gear / size)
+            r_wb = self.data.xmat[body].reshape(3, 3)
+            start = self.data.xpos[body] + r_wb @ model.site_pos[site]
+            found.append(Arrow('thrust', start, r_wb @ axis_b * force * per_newton, abs(force)))
+        return found
+
+    def water(self, points: Array) -> tuple[int, Array]:
+        """
+        Return the free surface over points, at the time of the last posed frame.
+
+        Parameters
+        ----------
+        points
+            x and y in the world [m], shape (n, 2).
+
+        Returns
+        -------
+        kind, heights
+            See ``plugins.surface.surface_heights``.
+
+        """
+        return surface.surface_heights(self.model, self.data, points)
+
+
+def extent(model: mujoco.MjModel, base: int) -> float:
+    """
+    Return how far the geoms of a body, and of all below it, reach from its origin.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    base
+        Id of the body.
+
+    Returns
+    -------
+    float
+        [m]; 0.1 for a body without geoms.
+
+    """
+    reach = 0.0
+    for geom in range(model.ngeom):
+        body = int(model.geom_bodyid[geom])
+        offset = float(np.linalg.norm(model.geom_pos[geom]))
+        while body > base:
+            offset += float(np.linalg.norm(model.body_pos[body]))
+            body = int(model.body_parentid[body])
+        if body == base:
+            reach = max(reach, offset + min(float(model.geom_rbound[geom]), 1e3))
+    return reach or 0.1
+
+
+def welded(model: mujoco.MjModel) -> dict[int, list[int]]:
+    """
+    Return the geoms that move as one, by the body whose pose they follow.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+
+    Returns
+    -------
+    dict
+        Body id -> ids of the geoms that are drawn: those that are visible, of the groups that
+        MuJoCo's viewer shows.
+
+    """
+    found: dict[int, list[int]] = {}
+    for geom in range(model.ngeom):
+        if model.geom_group[geom] > 2 or _rgba(model, geom)[3] == 0.0:
+            continue
+        root = int(model.body_weldid[model.geom_bodyid[geom]])
+        found.setdefault(root, []).append(geom)
+    return found
+
+
+def _rgba(model: mujoco.MjModel, geom: int) -> Array:
+    material = int(model.geom_matid[geom])
+    rgba: Array = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
+    return rgba
+
+
+def colors(model: mujoco.MjModel, geoms: Sequence[int]) -> dict[tuple[float, ...], list[int]]:
+    """
+    Return geoms by their colour.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    geoms
+        Their ids.
+
+    Returns
+    -------
+    dict
+        (red, green, blue, opacity), 0 to 1 -> ids.
+
+    """
+    found: dict[tuple[float, ...], list[int]] = {}
+    for geom in geoms:
+        found.setdefault(tuple(float(x) for x in _rgba(model, geom)), []).append(geom)
+    return found

@@ -1,0 +1,1 @@
+"""The page in the browser: a guarded server, the scene, panels, plots."""

@@ -1,0 +1,273 @@
+"""The scene of the page: vehicles, ground, water, force arrows, flow, trail, camera."""
+
+from collections import deque
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from typing import Any
+
+import mujoco
+import numpy as np
+import viser
+
+from fluid_sim_ros.output.term_colors import rgb, term_color
+from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.view.frame import Frame
+from fluid_sim_ros.view.stage import Arrow, Stage, colors, welded
+from fluid_sim_ros.view.web.looks import Looks
+from fluid_sim_ros.view.web.shapes import triangles
+from fluid_sim_ros.view.web.surroundings import Surroundings
+
+#: A flow of this speed [m/s] is drawn one extent of the vehicle long: wind, current.
+FLOW_LENGTH = {'wind': 5.0, 'current': 0.5}
+_FLOW_COLORS = {'wind': (110, 130, 160), 'current': (0, 120, 140)}
+#: Places of the arrows of a flow, across and up [extents].
+_FLOW_PLACES = [(a, b) for a in (-1.4, 1.4) for b in (-0.7, 0.0, 0.7)]
+#: A trail has this many points, this far apart [extents].
+_TRAIL, _APART = 500, 0.15
+#: Arrows of one vehicle start this far from each other [extents], so that none hides another.
+_BESIDE = 0.1
+#: Terms whose arrows keep the scale of the weight.
+_NOT_FLUID = ('thrust', 'weight')
+#: Seen from the camera that follows: back, left and up [extents].
+_VIEW = np.array([-3.2, 2.6, 1.5])
+
+
+class Scene:
+    """
+    Draws frames into viser's scene.
+
+    Parameters
+    ----------
+    server
+        Whose scene is drawn into; cleared first.
+    stage
+        Poses the model.
+    looks
+        What is wanted.
+
+    """
+
+    def __init__(self, server: viser.ViserServer, stage: Stage, looks: Looks) -> None:
+        self._server, self._stage, self._looks = server, stage, looks
+        self._api = server.scene
+        self._api.reset()
+        self._api.set_up_direction('+z')
+        self._world = self._api.add_frame('/world', show_axes=False)
+        mujoco.mj_forward(stage.model, stage.data)
+        self._bodies = self._add_bodies()
+        none = np.zeros((1, 2, 3))
+        extent = self._extent = stage.extents[looks.vehicle]
+        self._around = Surroundings(server, stage, extent)
+        self._arrows = self._api.add_arrows(
+            '/world/forces', none, (0, 0, 0), shaft_radius=0.025 * extent,
+            head_radius=0.07 * extent, head_length=0.16 * extent, visible=False,
+        )  # fmt: skip
+        self._flow = self._api.add_arrows(
+            '/world/flow', none, (0, 0, 0), shaft_radius=0.012 * extent,
+            head_radius=0.045 * extent, head_length=0.12 * extent, visible=False,
+        )  # fmt: skip
+        self._labels: dict[str, Any] = {}
+        self._trail = self._api.add_line_segments(
+            '/world/trail', none, (230, 80, 60), thickness=2.0, thickness_units='screen'
+        )
+        self._passed: deque[Array] = deque(maxlen=_TRAIL)
+        self._trail_of, self._trail_time = '', 0.0
+        self._set_camera()
+
+    def draw(self, frame: Frame) -> None:
+        """
+        Draw a frame, which the stage was posed to.
+
+        Parameters
+        ----------
+        frame
+            To draw.
+
+        """
+        looks, stage = self._looks, self._stage
+        data = stage.data
+        base = stage.vehicles[looks.vehicle].body_id
+        place = data.xpos[base].copy()
+        with self._server.atomic():
+            self._move_world(base, place)
+            for body, handle in self._bodies.items():
+                handle.position, handle.wxyz = data.xpos[body], data.xquat[body]
+            self._draw_forces(frame)
+            self._draw_flow(frame, place)
+            self._draw_trail(frame, place)
+            self._around.draw(place, self._eye(place))
+
+    # ---- what stands still -----------------------------------------------------------------
+
+    def _add_bodies(self) -> dict[int, Any]:
+        model, data, handles = self._stage.model, self._stage.data, {}
+        for root, geoms in welded(model).items():
+            parts = [
+                (color, found)
+                for color, ids in colors(model, geoms).items()
+                if (found := triangles(model, data, root, ids)) is not None
+            ]
+            if not parts:
+                continue
+            name = f'/world/body_{root}'
+            handle = self._api.add_frame(name, show_axes=False)
+            handle.position, handle.wxyz = data.xpos[root], data.xquat[root]
+            for number, (color, (vertices, faces)) in enumerate(parts):
+                self._api.add_mesh_simple(
+                    f'{name}/part_{number}', vertices, faces, color=color[:3],
+                    opacity=None if color[3] > 0.99 else color[3],
+                )  # fmt: skip
+            if root != 0:
+                handles[root] = handle
+        return handles
+
+    def _set_camera(self) -> None:
+        camera = self._server.initial_camera
+        places = [self._stage.data.xpos[v.body_id] for v in self._stage.vehicles.values()]
+        base = self._stage.vehicles[self._looks.vehicle].body_id
+        spread = max(float(np.linalg.norm(p - self._stage.data.xpos[base])) for p in places)
+        reach = max(self._extent, 0.35 * min(spread, 20.0 * self._extent))
+        camera.position = tuple(_VIEW * reach)
+        camera.look_at = (0.0, 0.0, 0.0)
+        camera.near, camera.far = 0.02 * self._extent, 2000.0
+
+    # ---- what moves ------------------------------------------------------------------------
+
+    def _move_world(self, base: int, place: Array) -> None:
+        """Move the world against the vehicle: every browser keeps its own angle of view."""
+        if self._looks.camera == 'free':
+            self._world.position, self._world.wxyz = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
+        elif self._looks.camera == 'follow':
+            self._world.position, self._world.wxyz = -place, (1.0, 0.0, 0.0, 0.0)
+        else:
+            inverse, moved = np.zeros(4), np.zeros(3)
+            mujoco.mju_negQuat(inverse, self._stage.data.xquat[base])
+            mujoco.mju_rotVecQuat(moved, -place, inverse)
+            self._world.position, self._world.wxyz = moved, inverse
+
+    def _eye(self, place: Array) -> Array:
+        """Return where the first browser's camera is in the world [m]."""
+        for client in self._server.get_clients().values():
+            inverse, seen = np.zeros(4), np.zeros(3)
+            mujoco.mju_negQuat(inverse, np.asarray(self._world.wxyz, dtype=float))
+            offset = client.camera.position - np.asarray(self._world.position)
+            mujoco.mju_rotVecQuat(seen, offset, inverse)
+            return seen
+        return place
+
+    def _draw_forces(self, frame: Frame) -> None:
+        looks, arrows, tips = self._looks, [], []
+        for name in self._stage.vehicles:
+            found = [
+                arrow if arrow.term in _NOT_FLUID
+                else replace(arrow, along=arrow.along * looks.fluid_scale)
+                for arrow in self._stage.arrows(frame, name, sorted(looks.terms), looks.scale)
+            ]  # fmt: skip
+            each = []
+            if 'thrust' in looks.terms and looks.each_thruster:
+                each = self._stage.thrusters(frame, name, looks.scale)
+                if each:
+                    found = [arrow for arrow in found if arrow.term != 'thrust']
+            found = self._side_by_side(found)
+            arrows += [*found, *each]
+            if name == looks.vehicle:
+                tips = [*found, *self._named(each)]
+        self._show_arrows(
+            self._arrows,
+            [np.stack([arrow.start, arrow.start + arrow.along]) for arrow in arrows],
+            [rgb(term_color(arrow.term)) for arrow in arrows],
+        )
+        self._draw_labels(tips)
+
+    def _side_by_side(self, arrows: Sequence[Arrow]) -> list[Arrow]:
+        """Return arrows that start beside each other, across the line of sight."""
+        across = np.array([_VIEW[1], -_VIEW[0], 0.0]) / np.hypot(_VIEW[0], _VIEW[1])
+        step = _BESIDE * self._extent
+        return [
+            replace(arrow, start=arrow.start + across * step * (i - (len(arrows) - 1) / 2))
+            for i, arrow in enumerate(arrows)
+        ]
+
+    @staticmethod
+    def _named(thrusters: Sequence[Arrow]) -> list[Arrow]:
+        """Return one arrow to write the sum of all thrusts at."""
+        if not thrusters:
+            return []
+        largest = max(thrusters, key=lambda arrow: arrow.newtons)
+        whole = sum(arrow.newtons for arrow in thrusters)
+        return [Arrow('thrust', largest.start, largest.along, whole)]
+
+    def _draw_labels(self, tips: Sequence[Arrow]) -> None:
+        shown = {arrow.term: arrow for arrow in tips} if self._looks.labels else {}
+        for term in {*shown, *self._labels}:
+            if term not in self._labels:
+                self._labels[term] = self._api.add_label(
+                    f'/world/label_{term}', term, anchor='bottom-center', font_screen_scale=0.9
+                )
+            label, arrow = self._labels[term], shown.get(term)
+            label.visible = arrow is not None
+            if arrow is not None:
+                label.position = arrow.start + 1.06 * arrow.along
+                longer = '' if term in _NOT_FLUID else self._longer()
+                label.text = f'{term.replace("_", " ")} {_newtons(arrow.newtons)}{longer}'
+
+    def _longer(self) -> str:
+        scale = self._looks.fluid_scale
+        return f' (drawn {scale:g} x)' if scale != 1.0 else ''
+
+    def _draw_flow(self, frame: Frame, place: Array) -> None:
+        row = frame.rows[list(self._stage.vehicles).index(self._looks.vehicle)]
+        flow = row[nat.MEDIUM_VELOCITY]
+        speed = float(np.linalg.norm(flow))
+        stream = 'current' if self._around.is_under(place) else 'wind'
+        extent, label = self._extent, self._labels.get('flow')
+        wanted = self._looks.flow and np.isfinite(speed) and speed > 0.01 * FLOW_LENGTH[stream]
+        points: list[Array] = []
+        if wanted:
+            along = flow / speed
+            across = np.cross(along, [0.0, 0.0, 1.0])
+            across = across / (np.linalg.norm(across) or 1.0)
+            up = np.cross(across, along)
+            length = flow / FLOW_LENGTH[stream] * extent
+            middle = place - 0.5 * length
+            points = [
+                np.stack([start, start + length])
+                for start in (middle + (a * across + b * up) * extent for a, b in _FLOW_PLACES)
+            ]
+        self._show_arrows(self._flow, points, [_FLOW_COLORS[stream]] * len(points))
+        if wanted and label is None:
+            label = self._labels['flow'] = self._api.add_label(
+                '/world/label_flow', '', anchor='bottom-center', font_screen_scale=0.9
+            )
+        if label is not None:
+            label.visible = bool(wanted and self._looks.labels)
+            if wanted:
+                label.text = f'{stream} {speed:.3g} m/s'
+                label.position = points[1][0] + np.array([0.0, 0.0, 0.15 * extent])
+
+    @staticmethod
+    def _show_arrows(
+        handle: Any, points: Sequence[Array], shades: Collection[tuple[int, int, int]]
+    ) -> None:
+        handle.visible = bool(points)
+        if points:
+            handle.points = np.asarray(points, dtype=np.float32)
+            handle.colors = np.array(shades, dtype=np.uint8)
+
+    def _draw_trail(self, frame: Frame, place: Array) -> None:
+        passed = self._passed
+        if self._trail_of != self._looks.vehicle or frame.time < self._trail_time:
+            passed.clear()
+        self._trail_of, self._trail_time = self._looks.vehicle, frame.time
+        self._trail.visible = self._looks.trail and len(passed) > 1
+        if passed and np.linalg.norm(place - passed[-1]) < _APART * self._extent:
+            return
+        passed.append(place)
+        if len(passed) > 1:
+            line = np.asarray(passed, dtype=np.float32)
+            self._trail.points = np.stack([line[:-1], line[1:]], axis=1)
+
+
+def _newtons(force: float) -> str:
+    return f'{force:.0f} N' if force >= 100.0 else f'{force:.3g} N'
