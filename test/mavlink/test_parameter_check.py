@@ -223,3 +223,16 @@ def test_an_instance_without_a_mavlink_system_of_its_own_is_told_of():
         px4.close()
     (line,) = [line for key, line in flight.reports if key == 'unread']
     assert line.startswith('instance 60000 has no MAVLink system of its own (they end at 250)')
+
+
+def test_the_second_link_is_open_to_this_host_only(px4_door, monkeypatch):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(('127.0.0.1', 0))
+        own = probe.getsockname()[1]
+    monkeypatch.setattr(companion, 'OUR_PORT', own - 2)
+    flight = BridgedFlight('x500_ground', 'px4', instance=2)
+    with flight.running():
+        px4 = Px4(flight.port, silent=0)
+        px4.exchange([0.0] * 4)
+        assert flight.bridge._companion._socket.getsockname() == ('127.0.0.1', own)
+        px4.close()

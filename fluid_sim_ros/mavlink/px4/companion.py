@@ -10,6 +10,7 @@ import math
 import socket
 from collections.abc import Sequence
 from contextlib import suppress
+from ipaddress import ip_address
 
 from pymavlink.dialects.v20 import common as dialect
 
@@ -84,7 +85,7 @@ class Companion:
         family = socket.AF_INET6 if ':' in host else socket.AF_INET
         link = socket.socket(family, socket.SOCK_DGRAM)
         with suppress(OSError):  # another program is the payload there: answers go to that one
-            link.bind(('', self._own))
+            link.bind((host if ip_address(host).is_loopback else '', self._own))
         link.connect((host, self._port))
         link.setblocking(False)
         self._socket = link
