@@ -5,6 +5,7 @@ import socket
 import threading
 import time
 from collections.abc import Iterator
+from typing import Self
 
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
@@ -36,7 +37,51 @@ def waited(condition, seconds=10.0):
     return True
 
 
-class BridgedFlight:
+class ThreadedFlight:
+    """A simulation that its autopilots lead, run in a thread of its own; its parts fill it."""
+
+    simulation: Simulation
+    runner: Runner
+
+    def __init__(self) -> None:
+        self.resets = 0
+        self.error: BaseException | None = None
+
+    def close(self) -> None:
+        """Close what the flight has open."""
+        raise NotImplementedError
+
+    def _reset(self) -> None:
+        self.resets += 1
+        self.simulation.reset()
+        self.runner.restart()
+
+    def _run(self, until: int) -> None:
+        try:
+            self.runner.run(until)
+        except BaseException as error:  # noqa: BLE001 - raised again where the block is left
+            self.error = error
+
+    @contextlib.contextmanager
+    def running(self, until: int = NEVER) -> Iterator[Self]:
+        """Run until the block is left, and to a tick that is given before that."""
+        thread = threading.Thread(target=self._run, args=(until,), daemon=True)
+        thread.start()
+        try:
+            yield self
+            if until != NEVER:
+                thread.join(30.0)
+        finally:
+            self.runner.stop()
+            thread.join(5.0)
+            alive = thread.is_alive()
+            self.close()
+            assert not alive, 'the loop hangs'
+            if self.error is not None:
+                raise self.error
+
+
+class BridgedFlight(ThreadedFlight):
     """
     A simulation with a bridge, run in a thread of its own.
 
@@ -51,6 +96,7 @@ class BridgedFlight:
         timestep: float | None = None,
         **options,
     ) -> None:
+        super().__init__()
         self.reports: list[tuple[str, str]] = []
         self.simulation = Simulation(scene, timestep=timestep)
         surroundings = Surroundings(
@@ -66,32 +112,6 @@ class BridgedFlight:
         self.port = self.bridge.port
         pacing = AutopilotPacing(self.bridge, clock or Pacing())
         self.runner = Runner(self.simulation, NoSource(), [], pacing)
-        self.resets = 0
-        self.error: Exception | None = None
 
-    def _reset(self) -> None:
-        self.resets += 1
-        self.simulation.reset()
-        self.runner.restart()
-
-    def _run(self, until: int) -> None:
-        try:
-            self.runner.run(until)
-        except Exception as error:  # noqa: BLE001 - raised again where the block is left
-            self.error = error
-
-    @contextlib.contextmanager
-    def running(self, until: int = NEVER) -> Iterator['BridgedFlight']:
-        """Run until the block is left."""
-        thread = threading.Thread(target=self._run, args=(until,), daemon=True)
-        thread.start()
-        try:
-            yield self
-        finally:
-            self.runner.stop()
-            thread.join(5.0)
-            alive = thread.is_alive()
-            self.bridge.close()
-            assert not alive, 'the loop hangs'
-            if self.error is not None:
-                raise self.error
+    def close(self) -> None:
+        self.bridge.close()

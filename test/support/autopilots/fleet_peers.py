@@ -1,8 +1,7 @@
 """A fleet whose scene file states its autopilots, run in a thread, and stand-ins that fly it."""
 
-import contextlib
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 from fluid_sim_ros import Simulation
@@ -13,18 +12,17 @@ from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.loop.shared_lockstep import joined
 from fluid_sim_ros.recording.sink import RecordingSink
-from fluid_sim_ros.step_clock import NEVER
-from test.support.autopilots.autopilot_peers import free_port
+from test.support.autopilots.autopilot_peers import ThreadedFlight, free_port
 
 
-class FleetFlight:
+class FleetFlight(ThreadedFlight):
     """A simulation with a bridge for each autopilot of its scene, at ports that are free."""
 
     def __init__(self, scene, log=None, **common) -> None:
+        super().__init__()
         self.simulation = Simulation(scene)
         self.sink = None if log is None else RecordingSink(self.simulation, log)
         self.reports: list[str] = []
-        self.resets = 0
         surroundings = Surroundings(
             report=lambda key, line: self.reports.append(line),
             inform=self.reports.append, reset=self._reset, log=self.sink,
@@ -37,39 +35,12 @@ class FleetFlight:
         pacing = AutopilotPacing(joined(bridges, self.simulation, self.sink), Pacing())
         sinks = [] if self.sink is None else [self.sink]
         self.runner = Runner(self.simulation, NoSource(), sinks, pacing)
-        self.error: BaseException | None = None
 
-    def _reset(self) -> None:
-        self.resets += 1
-        self.simulation.reset()
-        self.runner.restart()
-
-    def _run(self, until: int) -> None:
-        try:
-            self.runner.run(until)
-        except BaseException as error:  # noqa: BLE001 - raised again where the block is left
-            self.error = error
-
-    @contextlib.contextmanager
-    def running(self, until: int = NEVER) -> Iterator['FleetFlight']:
-        """Run until the block is left, or to a tick."""
-        thread = threading.Thread(target=self._run, args=(until,), daemon=True)
-        thread.start()
-        try:
-            yield self
-            if until != NEVER:
-                thread.join(30.0)
-        finally:
-            self.runner.stop()
-            thread.join(5.0)
-            alive = thread.is_alive()
-            for bridge in self.bridges.values():
-                bridge.close()
-            if self.sink is not None:
-                self.sink.close()
-            assert not alive, 'the loop hangs'
-            if self.error is not None:
-                raise self.error
+    def close(self) -> None:
+        for bridge in self.bridges.values():
+            bridge.close()
+        if self.sink is not None:
+            self.sink.close()
 
 
 class Pilot(threading.Thread):
