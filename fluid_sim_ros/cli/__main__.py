@@ -1,7 +1,6 @@
 """Runs ``python -m fluid_sim_ros.cli``."""
 
-import sys
-
 from fluid_sim_ros.cli import main
+from fluid_sim_ros.interruption import leave
 
-sys.exit(main())
+leave(main())

@@ -27,6 +27,7 @@ from fluid_sim_ros.errors import (
     needed_for,
     printable,
 )
+from fluid_sim_ros.interruption import Interrupted, begin, begun, settle
 from fluid_sim_ros.output.json_file import write_json
 
 DIVERGED = FAILED = 1
@@ -47,9 +48,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, 1 or 2 as the module says; 130 after Ctrl-C.
+        As the module says.
 
     """
+    if argv is None:
+        begin('fluid_sim')
     words = sys.argv[1:] if argv is None else list(argv)
     parser = _build_parser()
     completion.complete(parser)
@@ -58,6 +61,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     if rest and arguments.command != 'demo':
         parser.commands[arguments.command].refuse(rest)
     try:
+        begun()
+        code = _run(arguments, rest)
+        settle()  # within the block: no moment is left in which nobody takes an interruption
+    except Interrupted as error:
+        return _fail('interrupted', error.code)
+    except KeyboardInterrupt:
+        return _fail('interrupted', INTERRUPTED)
+    return code
+
+
+def _run(arguments: argparse.Namespace, rest: Sequence[str]) -> int:
+    try:
         if arguments.command == 'demo':
             return _demo(rest)
         code: int = arguments.function(arguments)
@@ -65,8 +80,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _fail(error, DIVERGED)
     except FluidSimError as error:
         return _fail(error, WRONG_INPUT)
-    except KeyboardInterrupt:
-        return _fail('interrupted', INTERRUPTED)
     return code
 
 

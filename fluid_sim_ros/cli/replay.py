@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import signal
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.shared import Show, fraction, plain_text
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.interruption import exit_code
 
 if TYPE_CHECKING:
     from fluid_sim_ros.recording.log import Log
@@ -117,14 +119,17 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
             if begin <= message.log_ns <= end:
                 yield message.topic, message.log_ns, message.data
 
-    count = ros.replay(topics, messages, options)
+    count, interrupted = ros.replay(topics, messages, options)
     result = {
-        'log': str(log.path), 'published': count, 'left_out': left_out, 'faults': log.faults
+        'log': str(log.path), 'published': count, 'left_out': left_out, 'faults': log.faults,
+        'interrupted': interrupted,
     }  # fmt: skip
     lines = [f'{count} messages published']
     lines += [f'left out: {name}: {reason}' for name, reason in left_out.items()]
     lines += [f'damaged: {fault}' for fault in log.faults]
     show(arguments.json, plain_text(lines), result)
+    if interrupted and not arguments.loop:  # a loop has no other end
+        return exit_code(signal.Signals[interrupted])
     return DIFFERENT if log.faults else 0
 
 

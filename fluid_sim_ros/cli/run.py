@@ -14,10 +14,10 @@ from rich.table import Table
 from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_lines
 from fluid_sim_ros.cli.home import scene_at, turn_to
 from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
-from fluid_sim_ros.cli.signals import stopped_by_signals
 from fluid_sim_ros.cli.tables import table_of
 from fluid_sim_ros.cli.watcher import SAMPLE_PERIOD, Watcher
 from fluid_sim_ros.errors import ConfigError, listed, needed_for
+from fluid_sim_ros.interruption import stopped_by_signals
 from fluid_sim_ros.loop.hold import Hold
 from fluid_sim_ros.loop.pacing import KEPT_PACE, Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
@@ -127,7 +127,8 @@ def run_scene(
         watcher = Watcher(simulation, progress, live)
         sinks: list[Sink] = [watcher]
         recording = _recording(simulation, record, record_topics, allow_assets_from, sinks)
-        with recording as (files, log):
+        # from the making of the log to its end: a signal ends the flight, and nothing else
+        with stopped_by_signals() as interruption, recording as (files, log):
             watchdogs = Watchdogs(simulation, lambda line: _warn(line, say, log))
             sinks.append(watchdogs)
             begin = time.perf_counter()
@@ -139,7 +140,8 @@ def run_scene(
                 sinks.append(Hold(simulation, log))
             runner = Runner(simulation, NoSource(), sinks, pacing)
             connected = nullcontext() if flight is None else flight.of(runner)
-            with stopped_by_signals(runner.stop) as interruption, connected:
+            interruption.stops(runner.stop)
+            with connected:
                 runner.run(until=steps)
             wall = time.perf_counter() - begin
             if realtime and wall > _SHORTEST and simulation.time / wall < KEPT_PACE:

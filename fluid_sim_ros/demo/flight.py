@@ -2,10 +2,9 @@
 
 import os
 import secrets
-import signal
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from fluid_sim_ros.demo.flight_log import TOPICS
 from fluid_sim_ros.demo.listener import Listener
 from fluid_sim_ros.demo.summary import SCENE, VEHICLE, WAYPOINTS
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.interruption import held
 from fluid_sim_ros.ros.controllers.states import read_odometry
 from fluid_sim_ros.ros.process.this_host import stay_on_this_host
 
@@ -78,7 +78,8 @@ def _follow(listener: Listener, children: '_Children') -> None:
         listener, children, lambda: bool(listener.messages),
         'the simulator has published no state',
     )  # fmt: skip
-    children.start_controller()
+    with held():
+        children.start_controller()
     _wait_for(
         listener, children, lambda: read_odometry(listener.messages[-1]).stamp_ns > 0,
         'the controller has answered no state',
@@ -116,14 +117,14 @@ def _listener() -> Iterator[tuple[Listener, int]]:
     start = secrets.randbelow(len(_DOMAINS))
     for i in range(len(_DOMAINS)):
         domain = _DOMAINS[(start + i) % len(_DOMAINS)]
-        listener = Listener(domain, f'{VEHICLE}/odom')
-        try:
+        with ExitStack() as stack:
+            with held():
+                listener = Listener(domain, f'{VEHICLE}/odom')
+                stack.callback(listener.close)
             listener.take(0.2)  # give discovery a moment
             if listener.is_alone():
                 yield listener, domain
                 return
-        finally:
-            listener.close()
     raise FluidSimError(f'every ROS domain from {_DOMAINS[0]} to {_DOMAINS[-1]} is in use')
 
 
@@ -167,17 +168,17 @@ class _Children:
     def last_words(self) -> str:
         return self.all()[-1].last_words()
 
-
-def _on_sigterm(number: int, frame: Any) -> None:
-    """Leave by an exception, so that the children are stopped on the way out."""
-    raise SystemExit(128 + number)
+    def stop(self) -> None:
+        for child in self.all():
+            child.stop()
 
 
 @contextmanager
 def _children(out: Path, domain: int, duration: float, log: Path | None) -> Iterator[_Children]:
-    before = signal.signal(signal.SIGTERM, _on_sigterm)
-    children = _Children(out, domain, duration, log)
-    try:
+    with ExitStack() as stack:
+        with held():  # nobody is started whom nobody stops
+            children = _Children(out, domain, duration, log)
+            stack.callback(children.stop)
         yield children
         for child in children.all():
             code = child.stop()
@@ -185,7 +186,3 @@ def _children(out: Path, domain: int, duration: float, log: Path | None) -> Iter
                 raise FluidSimError(
                     f'{child.name} ended with exit code {code}; {child.last_words()}'
                 )
-    finally:
-        for child in children.all():
-            child.stop()
-        signal.signal(signal.SIGTERM, before)

@@ -4,13 +4,12 @@ The executables of the package, with as few imports as can be.
 Loading a node takes a second or more. A Ctrl-C in that time ends the process as quietly as later.
 """
 
-import os
-import signal
 import sys
 from importlib import import_module
 from typing import NoReturn
 
-from fluid_sim_ros.ros.process.signals import leave
+from fluid_sim_ros.interruption import leave
+from fluid_sim_ros.ros.process.signals import end_quietly
 
 
 def fluid_sim_node() -> None:
@@ -39,7 +38,5 @@ def plane_controller() -> None:
 
 
 def _run(module: str) -> NoReturn:
-    for number in (signal.SIGINT, signal.SIGTERM):
-        # nothing is there yet that has to be ended
-        signal.signal(number, lambda *_: os._exit(0))
+    end_quietly()
     leave(import_module(module).main(sys.argv))

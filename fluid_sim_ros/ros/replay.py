@@ -17,13 +17,13 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.interruption import stopped_by_signals
 from fluid_sim_ros.loop.recorder_port import RecordedTopic
 from fluid_sim_ros.messages.state_topics import CLOCK
 from fluid_sim_ros.messages.templates import StampBytes, Template
 from fluid_sim_ros.messages.topic import NEWEST, Quality
 from fluid_sim_ros.ros.message_types import find_message_class
 from fluid_sim_ros.ros.process.run import executor_thread
-from fluid_sim_ros.ros.process.signals import EndSignals
 from fluid_sim_ros.ros.raw import RawPublisher
 
 NODE_NAME = 'fluid_sim_replay'
@@ -229,9 +229,9 @@ class ReplayNode(Node):
 
 def replay(
     topics: Sequence[RecordedTopic], messages: Callable[[], Messages], options: ReplayOptions
-) -> int:
+) -> tuple[int, str]:
     """
-    Publish until the end, or until SIGINT or SIGTERM; a second signal ends the process at once.
+    Publish until the end, or until SIGINT or SIGTERM; a later one ends the process at once.
 
     Parameters
     ----------
@@ -245,17 +245,20 @@ def replay(
 
     Returns
     -------
-    int
+    published : int
         How many messages were published.
+    interrupted : str
+        Name of the signal that ended it, or empty.
 
     """
-    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = ReplayNode(topics, options)
-    EndSignals(NODE_NAME).end(node)
-    try:
-        with executor_thread(node):
-            node.play(messages)
-    finally:
-        node.destroy_node()
-        rclpy.shutdown()
-    return node.published
+    with stopped_by_signals() as interruption:
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        node = ReplayNode(topics, options)
+        interruption.stops(node.end)
+        try:
+            with executor_thread(node):
+                node.play(messages)
+        finally:
+            node.destroy_node()
+            rclpy.shutdown()
+    return node.published, interruption.name

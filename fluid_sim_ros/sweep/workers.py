@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
 from fluid_sim_ros.errors import ConfigError, MissingExtraError
+from fluid_sim_ros.interruption import held
 from fluid_sim_ros.sweep.case_runs import CaseRunner
 from fluid_sim_ros.sweep.compiled_run import Row
 from fluid_sim_ros.sweep.results import Portion
@@ -99,7 +100,8 @@ def on_ray(
 
     """
     try:
-        import ray
+        with held():  # it takes SIGTERM for itself
+            import ray
     except ModuleNotFoundError:
         raise MissingExtraError(
             '--ray needs ray, which is not installed; type: pip install "fluid_sim_ros[sweep]"'
@@ -110,14 +112,15 @@ def on_ray(
     if local:
         _stay_on_this_host()
     try:
-        ray.init(
-            address='local' if local else address, num_cpus=workers if local else None,
-            include_dashboard=False if local else None, log_to_driver=False,
-            logging_level=logging.ERROR,
-        )  # fmt: skip
-    except (ConnectionError, ValueError) as error:
-        raise ConfigError(f"--ray '{address}': {str(error).splitlines()[0]}") from None
-    try:
+        try:
+            with held():
+                ray.init(
+                    address='local' if local else address, num_cpus=workers if local else None,
+                    include_dashboard=False if local else None, log_to_driver=False,
+                    logging_level=logging.ERROR,
+                )  # fmt: skip
+        except (ConnectionError, ValueError) as error:
+            raise ConfigError(f"--ray '{address}': {str(error).splitlines()[0]}") from None
         remote = ray.remote(max_retries=3)(_run_remotely)
         plain = as_plain(sweep)
         under_way: set[Any] = set()

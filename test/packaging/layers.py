@@ -6,7 +6,7 @@ from pathlib import Path
 PACKAGE = 'fluid_sim_ros'
 #: Lowest first: a room imports only rooms before it, and itself.
 ORDER = (
-    'errors', 'resources', 'step_clock', 'output',
+    'errors', 'resources', 'interruption', 'step_clock', 'output',
     'physics', 'hydro', 'control', 'plugins',
     'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop', 'flights',
     'new_vehicle', 'lab', 'sweep', 'reality', 'recording', 'mavlink', 'view', 'ros',
@@ -23,7 +23,16 @@ ROS_MODULES = (
 )  # fmt: skip
 #: Rooms that may use ROS; those that know nothing of MuJoCo.
 KNOW_ROS = ('ros', 'demo', 'cli')
-WITHOUT_MUJOCO = ('errors', 'resources', 'step_clock', 'output', 'physics', 'hydro', 'control')
+WITHOUT_MUJOCO = (
+    'errors',
+    'resources',
+    'interruption',
+    'step_clock',
+    'output',
+    'physics',
+    'hydro',
+    'control',
+)
 
 
 def room_of(module: str) -> str:

@@ -12,12 +12,12 @@ from fluid_sim_ros.control.propulsion import Propulsion
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.torpedo import CruiseTarget, TorpedoController, TorpedoGains
 from fluid_sim_ros.errors import listed
+from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
-from fluid_sim_ros.ros.process.signals import leave
 from fluid_sim_ros.simulation.fin_effect import fin_effect
 
 NODE_NAME = 'auv_controller'

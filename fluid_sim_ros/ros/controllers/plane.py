@@ -11,12 +11,12 @@ from fluid_sim_ros.control.fixed_wing import (
     FlightTarget,
 )
 from fluid_sim_ros.control.state import State
+from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import HEADING, OF_FIRST
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
-from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'plane_controller'
 SUMMARY = 'Holds altitude, heading and airspeed with a fixed-wing aircraft, and flies waypoints.'

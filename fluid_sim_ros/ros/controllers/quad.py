@@ -6,10 +6,10 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains, PoseTarget
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint
+from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.process.run import Executable, run_process
-from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'quad_controller'
 SUMMARY = 'Holds position and flies waypoints with a multirotor, in wind.'

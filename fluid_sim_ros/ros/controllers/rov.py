@@ -7,12 +7,12 @@ from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.axes import NAMES
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
+from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
-from fluid_sim_ros.ros.process.signals import leave
 
 NODE_NAME = 'rov_controller'
 SUMMARY = (

@@ -1,34 +1,22 @@
-"""SIGINT and SIGTERM end a loop in good order."""
+"""SIGINT and SIGTERM end a node's loop in good order."""
 
 import os
 import signal
-import sys
 import time
 from types import FrameType
-from typing import NoReturn, Protocol
+from typing import Protocol
 
-#: A second signal within this time is the same wish: a terminal signals the whole process group,
-#: and ``ros2 launch`` then signals each of its processes once more [s].
-_SAME_WISH = 2.0
-_NUMBERS = (signal.SIGINT, signal.SIGTERM)
+from fluid_sim_ros.interruption import NUMBERS, SAME_WISH, end_at_once, exit_code
 
 
-def leave(code: int) -> NoReturn:
+def end_quietly() -> None:
     """
-    End the process; a signal that comes on the way out changes nothing.
+    Have signals end the process at once with exit code 0.
 
-    Python gives signals their default effect while it shuts down, so the second one of a Ctrl-C
-    would make the end look like a crash.
-
-    Parameters
-    ----------
-    code
-        Exit code.
-
+    For a node that is loading: nothing is there yet that has to be ended.
     """
-    for number in _NUMBERS:
-        signal.signal(number, signal.SIG_IGN)
-    sys.exit(code)
+    for number in NUMBERS:
+        signal.signal(number, lambda *_: os._exit(0))
 
 
 class Ending(Protocol):
@@ -62,7 +50,7 @@ class EndSignals:
         self._since = 0.0
         self._target: Ending | None = None
         self.came = False
-        for number in _NUMBERS:
+        for number in NUMBERS:
             signal.signal(number, self._on_signal)
 
     def end(self, target: Ending) -> None:
@@ -82,10 +70,9 @@ class EndSignals:
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         now = time.monotonic()
         if self.came:
-            if now - self._since > _SAME_WISH:
-                line = f'{self._name}: ended at once by a second signal; a log may lack its end\n'
-                os.write(sys.stderr.fileno(), line.encode())
-                os._exit(128 + number)
+            if now - self._since > SAME_WISH:
+                line = f'{self._name}: ended at once by a second signal; a log may lack its end'
+                end_at_once(line, exit_code(number))
             return
         self.came, self._since = True, now
         if self._target is not None:

@@ -1,0 +1,137 @@
+"""The signals of this process, where it is one of our programs, and blocks that mind them."""
+
+import atexit
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NoReturn
+
+from fluid_sim_ros.interruption.handler import NUMBERS, Interrupted, Interruption, Signals
+
+#: Of this process, where it is one of our programs.
+_present: Signals | None = None
+
+
+def begin(program: str) -> None:
+    """
+    Take signals for a program that is loading; a second call changes nothing.
+
+    Parameters
+    ----------
+    program
+        What lines to the user begin with.
+
+    """
+    global _present
+    if _present is not None or threading.current_thread() is not threading.main_thread():
+        return
+    _present = Signals(program, loading=True)
+    before = sys.unraisablehook
+
+    def hook(seen: Any) -> None:
+        """Have an interruption that Python would show and forget come once more."""
+        if isinstance(seen.exc_value, Interrupted) and _present is not None:
+            _present.again()
+        else:
+            before(seen)
+
+    sys.unraisablehook = hook
+    # threads have ended by then; what comes after takes the timer's handler away
+    atexit.register(signal.setitimer, signal.ITIMER_REAL, 0.0)
+
+
+def begun() -> None:
+    """Note that the program has loaded: from now on something may have to be ended."""
+    if _present is not None:
+        _present.loading = False
+
+
+def settle() -> None:
+    """Note that the result of the program is out: a signal changes nothing any more."""
+    if _present is not None:
+        _present.settled = True
+
+
+def leave(code: int) -> NoReturn:
+    """
+    End the process; a signal that comes on the way out changes nothing.
+
+    Python gives signals their default effect while it shuts down, so the second one of a Ctrl-C
+    would make the end look like a crash.
+
+    Parameters
+    ----------
+    code
+        Exit code.
+
+    """
+    for number in NUMBERS:
+        signal.signal(number, signal.SIG_IGN)
+    sys.exit(code)
+
+
+@contextmanager
+def held() -> Iterator[None]:
+    """
+    Finish a block before a signal ends what is around it.
+
+    Returns
+    -------
+    context manager
+        Of the block, such as one that makes something and notes that it must be ended.
+
+    Raises
+    ------
+    Interrupted
+        Behind the block, where a signal has come in it.
+
+    """
+    present = _present
+    if present is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    present.holds += 1
+    try:
+        yield
+    finally:
+        present.holds -= 1
+    present.take()
+    if present.waits:
+        present.act()
+
+
+@contextmanager
+def stopped_by_signals() -> Iterator[Interruption]:
+    """
+    Have SIGINT and SIGTERM end a loop at its next boundary, and its block in order.
+
+    Outside of the main thread, which alone gets signals, nothing is changed.
+
+    Returns
+    -------
+    context manager
+        Of an ``Interruption``, which is told of the loop, and says afterwards whether a signal has
+        ended it.
+
+    Raises
+    ------
+    Interrupted
+        Where one has come before, and nothing has been done about it yet.
+
+    """
+    interruption = Interruption()
+    if threading.current_thread() is not threading.main_thread():
+        yield interruption
+        return
+    signals = _present or Signals('interrupted')
+    if signals.waits:  # it came while the loop's modules were imported
+        signals.act()
+    signals.loops.append(interruption)
+    try:
+        yield interruption
+    finally:
+        signals.loops.remove(interruption)
+        if signals is not _present:
+            signals.restore()
