@@ -27,7 +27,7 @@ from fluid_sim_ros.errors import (
     needed_for,
     printable,
 )
-from fluid_sim_ros.interruption import Interrupted, begin, begun, settle
+from fluid_sim_ros.interruption import begin, begun, interrupted_by, settle
 from fluid_sim_ros.output.json_file import write_json
 
 DIVERGED = FAILED = 1
@@ -64,10 +64,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         begun()
         code = _run(arguments, rest)
         settle()  # within the block: no moment is left in which nobody takes an interruption
-    except Interrupted as error:
-        return _fail('interrupted', error.code)
     except KeyboardInterrupt:
-        return _fail('interrupted', INTERRUPTED)
+        return _fail('interrupted', interrupted_by() or INTERRUPTED)
     return code
 
 

@@ -24,6 +24,7 @@ from fluid_sim_ros.interruption.program import (
     begin,
     begun,
     held,
+    interrupted_by,
     leave,
     settle,
     stopped_by_signals,
@@ -31,5 +32,5 @@ from fluid_sim_ros.interruption.program import (
 
 __all__ = [
     'NUMBERS', 'SAME_WISH', 'Interrupted', 'begin', 'begun', 'end_at_once', 'exit_code', 'held',
-    'leave', 'settle', 'stopped_by_signals',
+    'interrupted_by', 'leave', 'settle', 'stopped_by_signals',
 ]  # fmt: skip

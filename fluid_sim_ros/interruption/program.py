@@ -8,7 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-from fluid_sim_ros.interruption.handler import NUMBERS, Interrupted, Interruption, Signals
+from fluid_sim_ros.interruption.handler import (
+    NUMBERS,
+    Interrupted,
+    Interruption,
+    Signals,
+    exit_code,
+)
 
 #: Of this process, where it is one of our programs.
 _present: Signals | None = None
@@ -48,6 +54,11 @@ def begun() -> None:
         _present.loading = False
 
 
+def interrupted_by() -> int:
+    """Return the exit code of a program that a signal has interrupted; 0 where none has come."""
+    return exit_code(_present.number) if _present is not None and _present.number else 0
+
+
 def settle() -> None:
     """Note that the result of the program is out: a signal changes nothing any more."""
     if _present is not None:
@@ -73,9 +84,16 @@ def leave(code: int) -> NoReturn:
 
 
 @contextmanager
-def held() -> Iterator[None]:
+def held(from_library: bool = False) -> Iterator[None]:
     """
     Finish a block before a signal ends what is around it.
+
+    Parameters
+    ----------
+    from_library
+        Keep signals also from a library that takes them for itself in the block (Ray does, in
+        Python and in C++). Processes that are started in it inherit that, so that SIGTERM does
+        not end them.
 
     Returns
     -------
@@ -93,11 +111,13 @@ def held() -> Iterator[None]:
         yield
         return
     present.holds += 1
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, NUMBERS if from_library else ())
     try:
         yield
     finally:
+        present.take()
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         present.holds -= 1
-    present.take()
     if present.waits:
         present.act()
 

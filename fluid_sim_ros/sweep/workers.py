@@ -100,7 +100,7 @@ def on_ray(
 
     """
     try:
-        with held():  # it takes SIGTERM for itself
+        with held(from_library=True):
             import ray
     except ModuleNotFoundError:
         raise MissingExtraError(
@@ -113,7 +113,7 @@ def on_ray(
         _stay_on_this_host()
     try:
         try:
-            with held():
+            with held(from_library=True):
                 ray.init(
                     address='local' if local else address, num_cpus=workers if local else None,
                     include_dashboard=False if local else None, log_to_driver=False,

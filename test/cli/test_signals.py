@@ -226,3 +226,17 @@ def test_whoever_calls_a_run_keeps_signals_of_his_own():
         assert signal.getsignal(TERM) is mine
     finally:
         signal.signal(TERM, before)
+
+
+def test_a_library_that_takes_signals_for_itself_does_not_have_them():
+    done = program("""
+        try:
+            with held(from_library=True):  # as Ray does when it is imported
+                signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(number))
+                kill()
+                print('finished')
+            print('not reached')
+        except KeyboardInterrupt:
+            print(interrupted_by())
+    """)
+    assert (done.stdout, done.stderr) == ('finished\n143\n', '')
