@@ -40,6 +40,11 @@ class Interruption:
     """
     What has ended a loop early; see ``stopped_by_signals``.
 
+    Parameters
+    ----------
+    stop
+        As of ``stops``; None: there is no loop yet.
+
     Attributes
     ----------
     name
@@ -47,9 +52,9 @@ class Interruption:
 
     """
 
-    def __init__(self) -> None:
+    def __init__(self, stop: Callable[[], None] | None = None) -> None:
         self.name = ''
-        self._stop: Callable[[], None] | None = None
+        self._stop = stop
 
     def stops(self, stop: Callable[[], None]) -> None:
         """

@@ -4,7 +4,7 @@ import atexit
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
@@ -123,11 +123,16 @@ def held(from_library: bool = False) -> Iterator[None]:
 
 
 @contextmanager
-def stopped_by_signals() -> Iterator[Interruption]:
+def stopped_by_signals(stop: Callable[[], None] | None = None) -> Iterator[Interruption]:
     """
     Have SIGINT and SIGTERM end a loop at its next boundary, and its block in order.
 
     Outside of the main thread, which alone gets signals, nothing is changed.
+
+    Parameters
+    ----------
+    stop
+        Ends the loop; returns at once. None: the block tells of it (``Interruption.stops``).
 
     Returns
     -------
@@ -141,7 +146,7 @@ def stopped_by_signals() -> Iterator[Interruption]:
         Where one has come before, and nothing has been done about it yet.
 
     """
-    interruption = Interruption()
+    interruption = Interruption(stop)
     if threading.current_thread() is not threading.main_thread():
         yield interruption
         return

@@ -8,8 +8,8 @@ from typing import Any
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import at_least
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, plain_lines, plain_text
-from fluid_sim_ros.cli.signals import stopped_by_signals
 from fluid_sim_ros.errors import ConfigError, needed_for
+from fluid_sim_ros.interruption import stopped_by_signals
 
 _PORT, _MOST_PORT = 8080, 65535
 
