@@ -31,9 +31,13 @@ _FIELDS = {
     'joint_states': [f'effort[{rotor}]' for rotor in range(4)],
 }
 #: What is read, and what the demo's simulator records: the still shows the thrust, and viewers
-#: the markers, which they place by /tf.
+#: the markers and the robot description, which they place by /tf.
 _READ = tuple(f'{VEHICLE}/{leaf}' for leaf in _FIELDS)
-TOPICS = (*_READ, f'{VEHICLE}/wrench/thrust', f'{VEHICLE}/markers', '/tf')
+_SHOWN = ('markers', 'robot_description')
+TOPICS = (
+    *_READ, f'{VEHICLE}/wrench/thrust', *(f'{VEHICLE}/{leaf}' for leaf in _SHOWN),
+    '/tf_static', '/tf',
+)  # fmt: skip
 
 
 def read_recording(path: Path) -> Recording:

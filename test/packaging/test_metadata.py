@@ -9,7 +9,6 @@ import pytest
 
 import fluid_sim_ros
 from fluid_sim_ros.messages.definitions import known
-from fluid_sim_ros.ros.parameters import simulator as parameters
 from test.support.egg_info import sections
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -88,17 +87,3 @@ def test_package_xml_names_every_ros_package_that_is_used(package_xml):
 
     assert used >= {'rclpy', 'nav_msgs'}
     assert used <= named
-
-
-def test_the_launch_file_offers_what_the_node_and_the_package_have(egg_info):
-    tree = ast.parse((ROOT / 'launch' / 'fluid_sim.launch.py').read_text())
-    offered = {
-        node.targets[0].id: ast.literal_eval(node.value)
-        for node in tree.body
-        if isinstance(node, ast.Assign)
-    }
-    scripts = sections((egg_info / 'entry_points.txt').read_text())['console_scripts']
-    commands = {line.split('=')[0].strip() for line in scripts}
-
-    assert offered['PACINGS'] == ('', *parameters.PACINGS)
-    assert {*offered['CONTROLLERS']} == commands - {'fluid_sim', 'fluid_sim_node'} | {'none'}

@@ -46,7 +46,7 @@ def test_the_states_are_those_of_the_simulation(tmp_path):
     simulation = Simulation('rov')
     states = StateTopics(simulation, DEFAULTS)
     fixed = [topic for topic in states.topics if topic.once]
-    expected = [(topic.name, 0, 0, topic.data()) for topic in fixed]
+    expected = [(f'/{t.name.lstrip("/")}', 0, 0, t.data()) for t in fixed]
     for step in range(0, 105, 5):  # every 10 ms; no topic is due in between
         simulation.step(step - simulation.step_count)
         states.take_state()

@@ -5,6 +5,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+import yaml
+
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene
 from fluid_sim_ros.errors import ConfigError
 
@@ -50,11 +52,17 @@ def add_parsers(commands: Any, show: Show) -> None:
     new.add_argument('--out', type=Path, metavar='FOLDER', help='default: NAME')
     new.add_argument('--force', action='store_true', help='replace files that exist')
 
-    text = 'write a layout for Foxglove and Lichtblick that shows a vehicle'
+    text = 'write a layout for Foxglove and Lichtblick, or for RViz, that shows a vehicle'
     layout = add_command(commands, 'layout', text, _layout, show)
     add_scene(layout)
-    layout.add_argument('--vehicle', metavar='NAME', help='default: the first of the scene')
-    layout.add_argument('--out', type=Path, metavar='FILE', help='default: NAME.json')
+    layout.add_argument(
+        '--vehicle', metavar='NAME', help='default: the first of the scene; for RViz all'
+    )
+    layout.add_argument('--rviz', action='store_true', help='for RViz: rviz2 -d FILE')
+    layout.add_argument(
+        '--namespace', default='', metavar='NS', help="of the simulator's node; for RViz"
+    )
+    layout.add_argument('--out', type=Path, metavar='FILE', help='default: NAME.json, NAME.rviz')
 
 
 def _new_vehicle(arguments: argparse.Namespace, show: Show) -> int:
@@ -100,21 +108,29 @@ def _layout(arguments: argparse.Namespace, show: Show) -> int:
     from rich.markup import escape
 
     from fluid_sim_ros.messages.foxglove import vehicle_layout
+    from fluid_sim_ros.messages.rviz import rviz_config
     from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
     from fluid_sim_ros.simulation import Simulation
 
     simulation = Simulation(arguments.scene)
     name = arguments.vehicle or next(iter(simulation.vehicles))
     simulation.vehicle(name)  # says which there are
-    layout = vehicle_layout(StateTopics(simulation, DEFAULTS), name)
-    path = arguments.out or Path(f'{name}.json')
+    path = arguments.out or Path(f'{name}.{"rviz" if arguments.rviz else "json"}')
+    if arguments.rviz:
+        names = [name] if arguments.vehicle else list(simulation.vehicles)
+        config = rviz_config(names, arguments.namespace)
+        text = yaml.safe_dump(config, sort_keys=False)
+        parts = [display['Name'] for display in config['Visualization Manager']['Displays']]
+        use = f'rviz2 -d {path} --ros-args -p use_sim_time:=true'
+    else:
+        layout = vehicle_layout(StateTopics(simulation, DEFAULTS), name)
+        text = json.dumps(layout, indent=1) + '\n'
+        parts = list(layout['configById'])
+        use = 'in Foxglove: Import layout'
     try:
-        path.write_text(json.dumps(layout, indent=1) + '\n', encoding='utf-8')
+        path.write_text(text, encoding='utf-8')
     except OSError as error:
         raise ConfigError(f'--out {path}: {error.strerror}') from None
-    panels = list(layout['configById'])
-    result = {'path': str(path), 'vehicle': name, 'panels': panels}
-    show(
-        arguments.json, escape(f'{path}: {", ".join(panels)}; in Foxglove: Import layout'), result
-    )
+    result = {'path': str(path), 'vehicle': name, 'panels': parts}
+    show(arguments.json, escape(f'{path}: {", ".join(parts)}; {use}'), result)
     return 0
