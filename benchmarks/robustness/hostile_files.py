@@ -34,7 +34,6 @@ PORTION = 250
 def judge_portion(kind: str, first: int, last: int) -> None:
     """Judge the files of some seeds; print a line of JSON for each before and after."""
     warnings.simplefilter('ignore')
-    os.environ.setdefault('MUJOCO_GL', 'egl')
     with tempfile.TemporaryDirectory() as folder:
         judge = _judge_log(Path(folder)) if kind == 'log' else _judge_file(kind)
         watched = Path(folder) / 'watched'
@@ -87,8 +86,9 @@ def run_portion(kind: str, first: int, last: int) -> list[dict[str, Any]]:
         command = [sys.executable, '-m', __spec__.name, '--portion', f'{kind} {first} {last}']
         patience = MOST_WALL * (last - first)
         done = subprocess.run(
-            command, cwd=ROOT, capture_output=True, text=True, timeout=patience, check=False
-        )
+            command, cwd=ROOT, capture_output=True, text=True, timeout=patience, check=False,
+            env={'MUJOCO_GL': 'egl', **os.environ},  # MuJoCo chooses when it is imported
+        )  # fmt: skip
         lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{')]
         found += [line for line in lines if 'begun' not in line]
         begun = [line['begun'] for line in lines if 'begun' in line]

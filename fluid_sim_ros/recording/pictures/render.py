@@ -16,6 +16,7 @@ from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.model.trial import try_model
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
+from fluid_sim_ros.recording.pictures.renderer import new_renderer
 from fluid_sim_ros.recording.pictures.tracks import Track, read_tracks
 from fluid_sim_ros.recording.pictures.water import add_waves
 from fluid_sim_ros.scene.vehicle import weight_in_air
@@ -128,13 +129,7 @@ class _Stage:
         self._extent = _extent(model, self._followed)
         self._joints = {name: _joint_states(log, track) for name, track in self._tracks.items()}
         self._camera = self._choose_camera()
-        try:
-            self._renderer = mujoco.Renderer(model, options.height, options.width)
-        except (mujoco.FatalError, RuntimeError) as error:
-            raise ConfigError(
-                f'render: no picture of {options.width} x {options.height} pixels can be drawn '
-                f'here: {error}'
-            ) from None
+        self._renderer = new_renderer(model, options.width, options.height)
 
     def frame_times(self) -> Array:
         """Return the simulated times of the pictures [s]."""
