@@ -23,7 +23,7 @@ from typing import Any
 
 from benchmarks.common import ROOT, arguments, write
 from test.support.hostile.files import KINDS, hostile_file
-from test.support.hostile.judge import MOST_WALL, Outside, Verdict, children_peak, judged
+from test.support.hostile.judge import MOST_WALL, Outside, Trials, Verdict, judged
 
 LOGS, FILES = 20_000, 2_000
 QUICK = 20
@@ -35,6 +35,7 @@ def judge_portion(kind: str, first: int, last: int) -> None:
     """Judge the files of some seeds; print a line of JSON for each before and after."""
     warnings.simplefilter('ignore')
     with tempfile.TemporaryDirectory() as folder:
+        trials = Trials(Path(folder) / 'peaks')
         judge = _judge_log(Path(folder)) if kind == 'log' else _judge_file(kind)
         watched = Path(folder) / 'watched'
         watched.mkdir()
@@ -49,7 +50,7 @@ def judge_portion(kind: str, first: int, last: int) -> None:
             outside.clear()
             told = vars(verdict) | {'seed': seed, 'command': command}
             print(json.dumps(told), flush=True)
-    print(json.dumps({'children': children_peak()}), flush=True)
+        print(json.dumps({'children': trials.peak()}), flush=True)
 
 
 def _judge_log(folder: Path) -> Any:

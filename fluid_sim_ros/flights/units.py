@@ -1,12 +1,15 @@
 """Units and axes of other software, turned into ours."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
+
+if TYPE_CHECKING:  # SciPy's rotations take 29 MiB, which most logs of our own do not need
+    from scipy.spatial.transform import Rotation
 
 #: SI unit -> allowed unit -> factor.
 UNITS: dict[str, dict[str, float]] = {
@@ -76,6 +79,8 @@ def to_quaternions(numbers: Array, order: str, axes: str) -> Array:
         ``enu_flu`` or ``ned_frd``.
 
     """
+    from scipy.spatial.transform import Rotation
+
     if order == 'rpy':
         xyzw = Rotation.from_euler('ZYX', numbers[:, ::-1]).as_quat()
         wxyz = np.roll(xyzw, 1, axis=1)
@@ -107,7 +112,7 @@ def continuous(wxyz: Array) -> Array:
     return turned
 
 
-def rotations(wxyz: Array) -> Rotation:
+def rotations(wxyz: Array) -> 'Rotation':
     """
     Return SciPy's rotations of quaternions.
 
@@ -117,6 +122,8 @@ def rotations(wxyz: Array) -> Rotation:
         Unit quaternions, shape (n, 4) or (4,).
 
     """
+    from scipy.spatial.transform import Rotation
+
     return Rotation.from_quat(np.roll(wxyz, -1, axis=-1))
 
 

@@ -43,7 +43,7 @@ LIMITS = {
     'log_steps': Limit(200_000, 'steps of a repeated flight, beyond 1000 for each message'),
     'log_attachment_bytes': Limit(1 << 30, 'files of a model in a log together [bytes]'),
     'model_elements': Limit(100_000, 'elements of the model in a log, replicas counted'),
-    'model_bytes': Limit(192 << 20, 'memory for the model in a log, beyond 100 times its files'),
+    'model_bytes': Limit(128 << 20, 'memory for the model in a log, beyond 100 times its files'),
     'model_seconds': Limit(6, 'time to load the model in a log, beyond 2 s per MB [s]'),
     'flight_bytes': Limit(1 << 30, 'size of a log of other software [bytes]'),
     'flight_messages': Limit(20_000_000, 'messages of a log of other software'),

@@ -6,7 +6,6 @@ from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.scene.robot.links import Link, joint_name, vehicle_links
@@ -198,6 +197,18 @@ def _joint_element(
 
 def _origin(position: Array, quat_wxyz: Array) -> _Element:
     """Return an origin; URDF turns about the fixed axes x, y and z, in this order."""
-    rpy = Rotation.from_quat(quat_wxyz, scalar_first=True).as_euler('xyz', suppress_warnings=True)
-    place, turn = (numbers(np.round(values, 12)) for values in (position, rpy))
+    place, turn = (numbers(np.round(values, 12)) for values in (position, _rpy(quat_wxyz)))
     return ElementTree.Element('origin', xyz=place, rpy=turn)
+
+
+def _rpy(quat_wxyz: Array) -> Array:
+    """Return roll, pitch and yaw [rad]; scipy's would add 29 MiB to whatever opens a log."""
+    flat, unit = np.empty(9), quat_wxyz / np.linalg.norm(quat_wxyz)
+    mujoco.mju_quat2Mat(flat, unit)
+    turned = flat.reshape(3, 3)
+    level = np.hypot(turned[0, 0], turned[1, 0])
+    pitch = np.arctan2(-turned[2, 0], level)
+    if level < 1e-7:  # straight up or down: only the sum of roll and yaw is known
+        return np.array([np.arctan2(-turned[1, 2], turned[1, 1]), pitch, 0.0])
+    roll = np.arctan2(turned[2, 1], turned[2, 2])
+    return np.array([roll, pitch, np.arctan2(turned[1, 0], turned[0, 0])])

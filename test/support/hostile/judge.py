@@ -2,15 +2,18 @@
 
 import io
 import os
-import resource
 import shutil
+import subprocess
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.recording.model import trial
 
 #: What is allowed: processor time [s], wall time on a busy machine [s], and memory beyond four
 #: times the file [bytes].
@@ -99,9 +102,48 @@ def _peak() -> int:
     return int(line.split()[1]) << 10
 
 
-def children_peak() -> int:
-    """Return the largest resident memory of a process that this one has started [bytes]."""
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss << 10
+#: Starts a command from a small process: what Linux counts as the peak of a child begins with the
+#: memory of whoever started it. Ends as the command does.
+_SMALL = """\
+import os, sys
+child = os.posix_spawn(sys.argv[2], sys.argv[2:], os.environ)
+_, status, used = os.wait4(child, 0)
+with open(sys.argv[1], 'a') as peaks:
+    peaks.write(f'{used.ru_maxrss}\\n')
+code = os.waitstatus_to_exitcode(status)
+if code < 0:
+    os.kill(os.getpid(), -code)
+os._exit(code)
+"""
+
+
+class Trials:
+    """
+    The trials of models, started so that their memory is known.
+
+    Parameters
+    ----------
+    path
+        A file for the numbers.
+
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        trial.subprocess = self  # type: ignore[assignment]  # it uses run and TimeoutExpired
+
+    TimeoutExpired = subprocess.TimeoutExpired
+
+    def run(self, command: Sequence[str], **options: Any) -> subprocess.CompletedProcess[bytes]:
+        """Run a command as ``subprocess.run`` does."""
+        start = [sys.executable, '-S', '-c', _SMALL, str(self._path)]
+        return subprocess.run([*start, *command], **options)
+
+    def peak(self) -> int:
+        """Return the largest resident memory of a trial so far [bytes]."""
+        if not self._path.exists():
+            return 0
+        return max(map(int, self._path.read_text().split())) << 10
 
 
 class Outside:
