@@ -34,6 +34,8 @@ class Frame:
         Vehicles that are held by a law, and follow the keys.
     note
         What went wrong for good, such as a divergence; or empty.
+    ghost
+        Another pose of the model to draw beside it, pale, shape (nq,); None: there is none.
 
     """
 
@@ -46,6 +48,7 @@ class Frame:
     paused: bool = False
     steered: tuple[str, ...] = ()
     note: str = ''
+    ghost: Array | None = None
 
     def forces(self, vehicle: int, terms: Sequence[str]) -> dict[str, Array]:
         """

@@ -56,6 +56,8 @@ class Stage:
     ----------
     data
         As the last ``pose`` left it.
+    ghost
+        The same for the frame's ghost.
     extents
         How far each vehicle reaches from its origin [m].
 
@@ -63,7 +65,7 @@ class Stage:
 
     def __init__(self, model: mujoco.MjModel, vehicles: Mapping[str, Vehicle]) -> None:
         self.model, self.vehicles = model, vehicles
-        self.data = mujoco.MjData(model)
+        self.data, self.ghost = mujoco.MjData(model), mujoco.MjData(model)
         self.extents = {v.name: extent(model, v.body_id) for v in vehicles.values()}
         self._weights = {
             v.name: weight_in_air(model, v.body_id) or _NO_WEIGHT for v in vehicles.values()
@@ -82,6 +84,9 @@ class Stage:
         self.data.qpos[:] = frame.qpos
         self.data.time = frame.time
         mujoco.mj_kinematics(self.model, self.data)
+        if frame.ghost is not None:
+            self.ghost.qpos[:] = frame.ghost
+            mujoco.mj_kinematics(self.model, self.ghost)
 
     def arrows(self, frame: Frame, name: str, terms: Iterable[str], scale: float) -> list[Arrow]:
         """

@@ -1,6 +1,5 @@
 """The page of the live view, over its real protocol."""
 
-import threading
 import time
 from contextlib import contextmanager
 
@@ -14,21 +13,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.view.simulated import SimulatedSource, ViewOptions
 from fluid_sim_ros.view.web.page import Page
 from test.support.view_client import client
-
-
-@contextmanager
-def opened(source, port=0):
-    """Give a page of a source that runs."""
-    page = Page(source, '127.0.0.1', port)
-    loop = threading.Thread(target=source.run)
-    loop.start()
-    page.start()
-    try:
-        yield page
-    finally:
-        source.stop()
-        loop.join()
-        page.close()
+from test.support.view_pages import opened, time_of
 
 
 @contextmanager
@@ -37,12 +22,6 @@ def viewed(scene, **options):
     source = SimulatedSource(scene, options=ViewOptions(**options))
     with opened(source) as page, client(page.url) as browser:
         yield source, browser
-
-
-def time_of(browser):
-    """Return the simulated time that the page shows [s]."""
-    text = next(text for text in browser.texts() if 't = ' in text)
-    return float(text.split('t = ')[1].split(' s')[0])
 
 
 def test_a_slider_moves_and_the_command_arrives():

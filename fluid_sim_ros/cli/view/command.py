@@ -3,13 +3,18 @@
 import argparse
 import threading
 import webbrowser
-from typing import Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import at_least
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, plain_lines, plain_text
 from fluid_sim_ros.errors import ConfigError, needed_for
 from fluid_sim_ros.interruption import stopped_by_signals
+
+if TYPE_CHECKING:
+    from fluid_sim_ros.view.source import Source
 
 _PORT, _MOST_PORT = 8080, 65535
 
@@ -26,9 +31,15 @@ def add_parser(commands: Any, show: Show) -> None:
         Shows table and JSON.
 
     """
-    text = 'see a scene move in the browser, with the forces as arrows, and steer it'
+    text = 'see a scene or a log in the browser, with the forces as arrows, and steer it'
     view = add_command(commands, 'view', text, _view, show)
-    add_scene(view)
+    add_scene(
+        view, help='name (fluid_sim scenes), an MJCF or YAML file, or a log (.mcap, or a bag)'
+    )
+    view.add_argument(
+        '--with', action='append', default=[], metavar='KEY=VALUE', dest='changes',
+        help='of a log: show the flight with a change beside it, pale (see fluid_sim replay)',
+    )  # fmt: skip
     view.add_argument(
         '--host', default='127.0.0.1', metavar='ADDRESS',
         help='where the page is served (default 127.0.0.1: this machine alone); for any other the '
@@ -66,19 +77,13 @@ def add_parser(commands: Any, show: Show) -> None:
 
 def _view(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.output.plain_console import PlainConsole
-    from fluid_sim_ros.schema.settings import RunSettings
     from fluid_sim_ros.view.orders import Pace
-    from fluid_sim_ros.view.simulated import SimulatedSource, ViewOptions
 
     if arguments.port > _MOST_PORT:
         raise ConfigError(f'--port {arguments.port}: allowed is 0 to {_MOST_PORT}')
-    say = plain_lines(PlainConsole(stderr=True))
-    settings = RunSettings.checked(
-        '--{}', **{key: getattr(arguments, key) for key in RunSettings.model_fields}
-    )
     Pace(arguments.pace)  # refused before anything is opened
-    options = ViewOptions(arguments.pace, not arguments.no_hold, arguments.paused)
-    source = SimulatedSource(arguments.scene, settings, options, say)
+    say = plain_lines(PlainConsole(stderr=True))
+    source = _source(arguments, say)
     with needed_for('view'):
         from fluid_sim_ros.view.web.page import Page
     page = Page(source, arguments.host, int(arguments.port), say)
@@ -95,10 +100,45 @@ def _view(arguments: argparse.Namespace, show: Show) -> int:
     finally:
         timer.cancel()
         page.close()
+    frame = source.frame()
     result = {
-        'scene': source.title, 'url': page.url, 'pictures': page.drawn,
-        'duration_s': source.simulation.time, 'interrupted': interruption.name,
+        'shown': source.title, 'url': page.url, 'pictures': page.drawn,
+        'time_s': 0.0 if frame is None else frame.time, 'interrupted': interruption.name,
     }  # fmt: skip
-    lines = [f'{source.title}: {source.simulation.time:.2f} s, {page.drawn} pictures']
+    lines = [f'{source.title}: {result["time_s"]:.2f} s, {page.drawn} pictures']
     show(arguments.json, plain_text(lines), result)
     return 0
+
+
+def _source(arguments: argparse.Namespace, say: Callable[[str], None]) -> 'Source':
+    """Return what is shown: a log, or a scene."""
+    from fluid_sim_ros.schema.settings import RunSettings
+
+    given = {key: getattr(arguments, key) for key in RunSettings.model_fields}
+    settings = RunSettings.checked('--{}', **given)
+    path = Path(arguments.scene)
+    if path.suffix == '.mcap' or path.is_dir():
+        return _log(arguments, path, given, say)
+    if arguments.changes:
+        raise ConfigError('--with is for a log: the flight with a change beside the recorded one')
+    from fluid_sim_ros.view.simulated import SimulatedSource, ViewOptions
+
+    options = ViewOptions(arguments.pace, not arguments.no_hold, arguments.paused)
+    return SimulatedSource(arguments.scene, settings, options, say)
+
+
+def _log(
+    arguments: argparse.Namespace, path: Path, given: dict[str, Any], say: Callable[[str], None]
+) -> 'Source':
+    from fluid_sim_ros.cli.view.log_source import LogSource
+    from fluid_sim_ros.recording.reader import open_log
+
+    for key, value in (*given.items(), ('no_hold', arguments.no_hold)):
+        if value:
+            raise ConfigError(
+                f'--{key.replace("_", "-")} is for a scene; --with shows a log with a change'
+            )
+    log = open_log(path)
+    for fault in log.faults:
+        say(f'damaged: {fault}')
+    return LogSource(log, arguments.changes, arguments.pace, arguments.paused, say)

@@ -12,16 +12,14 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.recording.damage import LogError, reading
-from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.log import Log
-from fluid_sim_ros.recording.model.trial import try_model
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
+from fluid_sim_ros.recording.pictures.poses import LogPoses, latest
 from fluid_sim_ros.recording.pictures.renderer import new_renderer
-from fluid_sim_ros.recording.pictures.tracks import Track, read_tracks
+from fluid_sim_ros.recording.pictures.tracks import Track
 from fluid_sim_ros.recording.pictures.water import add_waves
 from fluid_sim_ros.scene.vehicle import weight_in_air
 from fluid_sim_ros.schema.limits import check_limit
-from fluid_sim_ros.simulation import Simulation
 
 #: Arrow per recorded wrench: colour (red, green, blue, opacity); the same as the node's markers.
 _ARROWS = {'total': (0.1, 0.5, 0.9, 1.0), 'thrust': (0.9, 0.5, 0.1, 1.0)}
@@ -88,8 +86,6 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
     if out.suffix not in KINDS:
         raise ConfigError(f"render: '{out.suffix}' is not known; allowed: {listed(KINDS)}")
     with reading(log.path):
-        log.description().scene()  # what is missing is found before anything is tried
-        try_model(log.path)
         stage = _Stage(log, options)
         times = stage.frame_times()
         if out.suffix == '.png':
@@ -110,30 +106,23 @@ class _Stage:
     """The model, posed as the log has it."""
 
     def __init__(self, log: Log, options: FilmOptions) -> None:
-        run = log.description().run
         self._options = options
-        self._simulation = Simulation(log.description().scene(), seed=run['seed'])
+        self._poses = LogPoses(log)
+        self._simulation = self._poses.simulation
         self._data = self._simulation.data
         self._model = model = self._simulation.model
         model.vis.global_.offwidth = max(model.vis.global_.offwidth, options.width)
         model.vis.global_.offheight = max(model.vis.global_.offheight, options.height)
-        prefix = run['namespace'].strip('/')
-        self._tracks = {
-            track.name.removeprefix(prefix).strip('/'): track
-            for track in read_tracks(log).vehicles
-        }
-        name = options.vehicle or next(iter(self._tracks))
-        if name not in self._tracks:
-            raise LogError(f"{log.path}: no vehicle '{name}'; it has: {', '.join(self._tracks)}")
+        self._tracks = self._poses.tracks
+        name = self._poses.check_vehicle(options.vehicle, log.path)
         self._followed = self._simulation.vehicles[name].body_id
         self._extent = _extent(model, self._followed)
-        self._joints = {name: _joint_states(log, track) for name, track in self._tracks.items()}
         self._camera = self._choose_camera()
         self._renderer = new_renderer(model, options.width, options.height)
 
     def frame_times(self) -> Array:
         """Return the simulated times of the pictures [s]."""
-        times = next(iter(self._tracks.values())).times
+        times = self._poses.times
         step = self._options.speed / self._options.rate
         if not times[-1] >= times[0]:
             raise LogError('the times of its odometry do not rise')
@@ -142,7 +131,7 @@ class _Stage:
 
     def time_of_still(self, time: float) -> Array:
         """Return the time of a still [s], which must be one of the log's."""
-        times = next(iter(self._tracks.values())).times
+        times = self._poses.times
         if not times[0] <= time <= times[-1]:
             raise ConfigError(
                 f'render: {time:g} s is not in the log, which has {times[0]:g} to {times[-1]:g} s'
@@ -151,8 +140,7 @@ class _Stage:
 
     def picture(self, time: float) -> Picture:
         """Return the picture at a simulated time [s]."""
-        for name, track in self._tracks.items():
-            self._pose(name, track, time)
+        self._data.qpos[:] = self._poses.qpos(time)
         self._data.time = time
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
@@ -167,17 +155,6 @@ class _Stage:
 
     def close(self) -> None:
         self._renderer.close()
-
-    def _pose(self, name: str, track: Track, time: float) -> None:
-        vehicle = self._simulation.vehicles[name]
-        at = vehicle.qpos_address
-        i = _latest(track.times, time)
-        if at >= 0:
-            self._data.qpos[at : at + 3] = track.position_w[i]
-            self._data.qpos[at + 3 : at + 7] = track.quat_wb_wxyz[i]
-        for joint, (times, positions) in self._joints[name].items():
-            address = self._model.joint(joint).qposadr[0]
-            self._data.qpos[address] = positions[_latest(times, time)]
 
     def _choose_camera(self) -> Any:
         """Return the camera asked for, the model's own that tracks the vehicle, or one of ours."""
@@ -214,7 +191,7 @@ class _Stage:
             rows = track.wrenches.get(term)
             if rows is None or scene.ngeom >= scene.maxgeom:
                 continue
-            force_w = rotation @ rows[_latest(rows[:, 0], time), 1:4]
+            force_w = rotation @ rows[latest(rows[:, 0], time), 1:4]
             along = force_w / weight * _LENGTH * self._extent
             if np.linalg.norm(along) < 1e-3 * self._extent:
                 continue
@@ -229,11 +206,6 @@ class _Stage:
             scene.ngeom += 1
 
 
-def _latest(times: Array, time: float) -> int:
-    """Return the row of the last time that is not after ``time``."""
-    return max(0, int(np.searchsorted(times, time + 1e-9)) - 1)
-
-
 def _extent(model: mujoco.MjModel, base: int) -> float:
     """Return how far a vehicle's geoms reach from its origin [m]."""
     reach = 0.0
@@ -246,20 +218,3 @@ def _extent(model: mujoco.MjModel, base: int) -> float:
         if body == base:
             reach = max(reach, offset + min(float(model.geom_rbound[geom]), 1e3))
     return reach or 0.1
-
-
-def _joint_states(log: Log, track: Track) -> dict[str, tuple[Array, Array]]:
-    """Return times [s] and positions of each joint of a vehicle that the log has."""
-    topic = next((t for t in log.topics.values() if t.name == f'/{track.name}/joint_states'), None)
-    if topic is None:
-        return {}
-    messages = list(log.messages([topic.name]))
-    if not messages:
-        return {}
-    table = columns(topic.definition, [m.data for m in messages])
-    times = np.array([m.log_ns for m in messages]) / 1e9
-    found = {}
-    for i in range(sum(name.startswith('name[') for name in table)):
-        joint = str(table[f'name[{i}]'][0])
-        found[joint] = (times, table[f'position[{i}]'])
-    return {name: pair for name, pair in found.items() if np.any(pair[1])}

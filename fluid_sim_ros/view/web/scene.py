@@ -27,6 +27,8 @@ _FLOW_PLACES = [(a, b) for a in (-1.4, 1.4) for b in (-0.7, 0.0, 0.7)]
 _TRAIL, _APART = 500, 0.15
 #: Arrows of one vehicle start this far from each other [extents], so that none hides another.
 _BESIDE = 0.1
+#: Opacity of another flight beside the one that is shown.
+_PALE = 0.3
 #: Terms whose arrows keep the scale of the weight.
 _NOT_FLUID = ('thrust', 'weight')
 #: Seen from the camera that follows: back, left and up [extents].
@@ -55,7 +57,8 @@ class Scene:
         self._api.set_up_direction('+z')
         self._world = self._api.add_frame('/world', show_axes=False)
         mujoco.mj_forward(stage.model, stage.data)
-        self._bodies = self._add_bodies()
+        self._bodies = self._add_bodies('body', 1.0)
+        self._ghosts: dict[int, Any] = {}
         none = np.zeros((1, 2, 3))
         extent = self._extent = stage.extents[looks.vehicle]
         self._around = Surroundings(server, stage, extent)
@@ -93,6 +96,7 @@ class Scene:
             self._move_world(base, place)
             for body, handle in self._bodies.items():
                 handle.position, handle.wxyz = data.xpos[body], data.xquat[body]
+            self._draw_ghost(frame)
             self._draw_forces(frame)
             self._draw_flow(frame, place)
             self._draw_trail(frame, place)
@@ -100,9 +104,12 @@ class Scene:
 
     # ---- what stands still -----------------------------------------------------------------
 
-    def _add_bodies(self) -> dict[int, Any]:
+    def _add_bodies(self, kind: str, opacity: float) -> dict[int, Any]:
+        """Add the bodies; those that stand still only where nothing of it is see-through."""
         model, data, handles = self._stage.model, self._stage.data, {}
         for root, geoms in welded(model).items():
+            if root == 0 and opacity < 1.0:
+                continue
             parts = [
                 (color, found)
                 for color, ids in colors(model, geoms).items()
@@ -110,13 +117,13 @@ class Scene:
             ]
             if not parts:
                 continue
-            name = f'/world/body_{root}'
+            name = f'/world/{kind}_{root}'
             handle = self._api.add_frame(name, show_axes=False)
             handle.position, handle.wxyz = data.xpos[root], data.xquat[root]
             for number, (color, (vertices, faces)) in enumerate(parts):
                 self._api.add_mesh_simple(
                     f'{name}/part_{number}', vertices, faces, color=color[:3],
-                    opacity=None if color[3] > 0.99 else color[3],
+                    opacity=None if color[3] * opacity > 0.99 else color[3] * opacity,
                 )  # fmt: skip
             if root != 0:
                 handles[root] = handle
@@ -145,6 +152,14 @@ class Scene:
             mujoco.mju_negQuat(inverse, self._stage.data.xquat[base])
             mujoco.mju_rotVecQuat(moved, -place, inverse)
             self._world.position, self._world.wxyz = moved, inverse
+
+    def _draw_ghost(self, frame: Frame) -> None:
+        if frame.ghost is None:
+            return
+        self._ghosts = self._ghosts or self._add_bodies('ghost', _PALE)
+        ghost = self._stage.ghost
+        for body, handle in self._ghosts.items():
+            handle.position, handle.wxyz = ghost.xpos[body], ghost.xquat[body]
 
     def _eye(self, place: Array) -> Array:
         """Return where the first browser's camera is in the world [m]."""
