@@ -22,6 +22,6 @@ def opened(source, port=0):
 
 
 def time_of(browser):
-    """Return the simulated time that the page shows [s]."""
-    text = next(text for text in browser.texts() if 't = ' in text)
+    """Return the simulated time that the page shows [s]; -1: none yet."""
+    text = next((text for text in browser.texts() if 't = ' in text), 't = -1 s')
     return float(text.split('t = ')[1].split(' s')[0])

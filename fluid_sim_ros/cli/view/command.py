@@ -1,9 +1,10 @@
-"""The subcommand ``fluid_sim view``: a live view of a scene in the browser."""
+"""The subcommand ``fluid_sim view``: a scene, a log or a node in the browser."""
 
 import argparse
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ from fluid_sim_ros.interruption import stopped_by_signals
 if TYPE_CHECKING:
     from fluid_sim_ros.view.source import Source
 
-_PORT, _MOST_PORT = 8080, 65535
+_PORT, _MOST_PORT, _NODE = 8080, 65535, '/fluid_sim_node'
 
 
 def add_parser(commands: Any, show: Show) -> None:
@@ -31,11 +32,15 @@ def add_parser(commands: Any, show: Show) -> None:
         Shows table and JSON.
 
     """
-    text = 'see a scene or a log in the browser, with the forces as arrows, and steer it'
+    text = 'see a scene, a log or a node in the browser, with its forces as arrows, and steer it'
     view = add_command(commands, 'view', text, _view, show)
     add_scene(
-        view, help='name (fluid_sim scenes), an MJCF or YAML file, or a log (.mcap, or a bag)'
+        view, nargs='?', help='name (fluid_sim scenes), MJCF or YAML file, or a log (.mcap, a bag)'
     )
+    view.add_argument(
+        '--node', nargs='?', const=_NODE, metavar='NAME',
+        help=f'show a running node (default {_NODE}); SCENE: in place of the one that it names',
+    )  # fmt: skip
     view.add_argument(
         '--with', action='append', default=[], metavar='KEY=VALUE', dest='changes',
         help='of a log: show the flight with a change beside it, pale (see fluid_sim replay)',
@@ -83,9 +88,17 @@ def _view(arguments: argparse.Namespace, show: Show) -> int:
         raise ConfigError(f'--port {arguments.port}: allowed is 0 to {_MOST_PORT}')
     Pace(arguments.pace)  # refused before anything is opened
     say = plain_lines(PlainConsole(stderr=True))
-    source = _source(arguments, say)
+    with ExitStack() as stack:
+        return _serve(_source(arguments, say, stack), arguments, say, show)
+
+
+def _serve(
+    source: 'Source', arguments: argparse.Namespace, say: Callable[[str], None], show: Show
+) -> int:
+    """Serve the page until the source ends; return the exit code."""
     with needed_for('view'):
         from fluid_sim_ros.view.web.page import Page
+
     page = Page(source, arguments.host, int(arguments.port), say)
     say(f'{page.url}  (Ctrl-C ends it)')
     timer = threading.Timer(arguments.end_after or 0.0, source.stop)
@@ -110,12 +123,18 @@ def _view(arguments: argparse.Namespace, show: Show) -> int:
     return 0
 
 
-def _source(arguments: argparse.Namespace, say: Callable[[str], None]) -> 'Source':
-    """Return what is shown: a log, or a scene."""
+def _source(
+    arguments: argparse.Namespace, say: Callable[[str], None], stack: ExitStack
+) -> 'Source':
+    """Return what is shown: a node, a log, or a scene."""
     from fluid_sim_ros.schema.settings import RunSettings
 
     given = {key: getattr(arguments, key) for key in RunSettings.model_fields}
     settings = RunSettings.checked('--{}', **given)
+    if arguments.node is not None:
+        return _node(arguments, given, say, stack)
+    if arguments.scene is None:
+        raise ConfigError('view needs a SCENE, a LOG or --node')
     path = Path(arguments.scene)
     if path.suffix == '.mcap' or path.is_dir():
         return _log(arguments, path, given, say)
@@ -127,17 +146,36 @@ def _source(arguments: argparse.Namespace, say: Callable[[str], None]) -> 'Sourc
     return SimulatedSource(arguments.scene, settings, options, say)
 
 
+def _only_for_scenes(
+    arguments: argparse.Namespace, given: dict[str, Any], others: Sequence[str], instead: str
+) -> None:
+    """Refuse options that only a scene can heed."""
+    for key in (*given, 'no_hold', *others):
+        if getattr(arguments, key):
+            option = {'changes': 'with'}.get(key, key).replace('_', '-')
+            raise ConfigError(f'--{option} does not go with it; {instead}')
+
+
+def _node(
+    arguments: argparse.Namespace,
+    given: dict[str, Any],
+    say: Callable[[str], None],
+    stack: ExitStack,
+) -> 'Source':
+    with needed_for('--node'):
+        from fluid_sim_ros.cli.view.node_link import linked
+        from fluid_sim_ros.cli.view.node_source import NodeSource
+    _only_for_scenes(arguments, given, ('changes', 'paused'), 'a node has its own parameters')
+    return NodeSource(stack.enter_context(linked(arguments.node)), arguments.scene or '', say)
+
+
 def _log(
     arguments: argparse.Namespace, path: Path, given: dict[str, Any], say: Callable[[str], None]
 ) -> 'Source':
     from fluid_sim_ros.cli.view.log_source import LogSource
     from fluid_sim_ros.recording.reader import open_log
 
-    for key, value in (*given.items(), ('no_hold', arguments.no_hold)):
-        if value:
-            raise ConfigError(
-                f'--{key.replace("_", "-")} is for a scene; --with shows a log with a change'
-            )
+    _only_for_scenes(arguments, given, (), 'a log was flown; --with shows it with a change')
     log = open_log(path)
     for fault in log.faults:
         say(f'damaged: {fault}')
