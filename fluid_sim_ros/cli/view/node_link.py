@@ -167,6 +167,11 @@ def linked(target: str) -> Iterator[NodeLink]:
     target
         Name of the node.
 
+    Returns
+    -------
+    context manager
+        Gives the link.
+
     """
     link = NodeLink(target)
     try:
