@@ -81,7 +81,9 @@ def draw(rows: Sequence[Row]) -> None:
         times = np.linspace(0, 3 * time, 200)
         right.plot(times, terminal * (1 - np.exp(-3 * times / time)), 'k--', lw=1,
                    label='measured (their fit)' if i == 0 else None)  # fmt: skip
-        right.plot(*settle(diameter, ratio, 3 * time), f'C{i}', lw=1.2, label=name)
+        right.plot(*settle(diameter, ratio, 3 * time), f'C{i}:', lw=1.2)
+        mended = settle(diameter, ratio, 3 * time, history='dorgan_loth')
+        right.plot(*mended, f'C{i}', lw=1.2, label=f'{name}, with history (dotted: without)')
     right.set(xlabel='t [s]', ylabel='[m/s]', title='Spheres that sink in water')
     right.legend(fontsize=8)
     for axis in (left, right):

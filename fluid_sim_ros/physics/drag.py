@@ -1,4 +1,4 @@
-"""Drag of the ellipsoid model: blunt and slender, angular, and Stokes resistance."""
+"""Drag of the ellipsoid model: blunt, slender, angular, Stokes resistance and its history."""
 
 from typing import Literal
 
@@ -210,3 +210,45 @@ def viscous_resistance(
     """
     r = positive_vectors(axes, 'semi-axes [m]')
     return sphere_resistance(r.mean(axis=-1), v_rel_b, omega_b, viscosity)
+
+
+#: Exponent c and factor c2 of the kernels of the history force: Mei and Adrian (1992), J. Fluid
+#: Mech. 237:323; Dorgan and Loth (2007), Int. J. Multiphase Flow 33:833 (from memory).
+HISTORY_KERNELS = {'mei_adrian': (2.0, 0.105), 'dorgan_loth': (2.5, 0.2)}
+
+
+def history_kernel(lag: ArrayLike, reynolds: ArrayLike, kernel: str = 'dorgan_loth') -> Array:
+    """
+    Return K of the history force F = -6 pi mu r int K(t - s) dv/ds ds on a sphere.
+
+    Basset (1888): K = x^(-1/2), for Re much below 1. At finite Re (Mei and Adrian 1992)
+    K = [x^(1/2c) + (b x)^(2/c)]^(-c), b^2 = (Re/2)^3/(2 pi f^3), f = 0.75 + c2 Re: it dies out as
+    x^(-2), for the wake is carried away. Re is that of the present speed.
+
+    Parameters
+    ----------
+    lag
+        x = (t - s)/T > 0 [-], T = r^2/(pi nu), shape (...).
+    reynolds
+        Re = 2 r |v|/nu [-], shape (...).
+    kernel
+        ``basset``, or a key of ``HISTORY_KERNELS``.
+
+    Returns
+    -------
+    [-], shape (...).
+
+    """
+    x = np.asarray(lag, dtype=np.float64)
+    if kernel == 'basset':
+        basset: Array = x**-0.5 * np.ones_like(np.asarray(reynolds, dtype=np.float64))
+        return basset
+    if kernel not in HISTORY_KERNELS:
+        raise ConfigError(
+            f"history kernel '{kernel}'; allowed: basset, {', '.join(HISTORY_KERNELS)}"
+        )
+    c, c2 = HISTORY_KERNELS[kernel]
+    re = np.asarray(reynolds, dtype=np.float64)
+    b = np.sqrt((re / 2) ** 3 / (2 * np.pi * (0.75 + c2 * re) ** 3))
+    found: Array = (x ** (0.5 / c) + (b * x) ** (2 / c)) ** -c
+    return found

@@ -8,6 +8,7 @@ import sys
 import numpy as np
 import pytest
 
+from benchmarks.vehicles.validation_bodies import settling_world
 from fluid_sim_ros.plugins.native import native
 from test.support.foil_models import AEROSONDE, foil_world
 from test.support.paths import ROOT
@@ -38,6 +39,7 @@ WORLDS = {
     'aircraft': foil_world(AEROSONDE),
     'T200': rotor_world(T200),
     'polynomial': rotor_world(POLYNOMIAL, medium=SEA),
+    'history': settling_world(1e-3, 2.56, history='dorgan_loth'),
 }
 INTEGRATORS = ('RK4', 'implicitfast', 'discrete')
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "assembly/instances.h"
 #include "body/body_checks.h"
 #include "body/body_forces.h"
 #include "body/inertia.h"
@@ -21,30 +22,6 @@ namespace {
 const Medium kNoMedium{};
 constexpr mjtNum kNoSpin[3] = {0, 0, 0};
 
-// First instance that takes part in the assembly, or -1; asked for every body that is observed.
-int FirstInstance(const mjModel* m) {
-  static const int body = PluginSlot(kBodyPlugin), medium = PluginSlot(kMediumPlugin),
-                   foil = PluginSlot(kFoilPlugin);
-  for (int i = 0; i < m->nplugin; ++i) {
-    const int slot = m->plugin[i];
-    if (slot == body || slot == medium || slot == foil) return i;
-  }
-  return -1;
-}
-
-// Every fluid_sim.body instance is on a body: one that is not would be off without a word.
-bool CheckInstancesUsed(const mjModel* m) {
-  for (int i = 0; i < m->nplugin; ++i) {
-    if (!IsPlugin(m, i, kBodyPlugin)) continue;
-    bool used = false;
-    for (int body = 1; body < m->nbody; ++body) used |= m->body_plugin[body] == i;
-    if (used) continue;
-    return Config(m, i, InstanceTitle(m, i))
-        .Fail("is on no body; put <plugin instance=\"...\"/> into a body");
-  }
-  return true;
-}
-
 bool HasFoil(const Assembly& assembly, int body) {
   for (const Foil& foil : assembly.foils) {
     if (foil.body == body) return true;
@@ -55,6 +32,7 @@ bool HasFoil(const Assembly& assembly, int body) {
 std::unique_ptr<Assembly> BuildAssembly(const mjModel* m, int owner) {
   auto assembly = std::make_unique<Assembly>();
   assembly->owner = owner;
+  assembly->last = LastInstance(m);
   if (!CheckReferences(m) || !ReadMedium(m, &assembly->medium) || !CheckInstancesUsed(m))
     return nullptr;
   if (!ReadFoils(m, assembly->medium, &assembly->foils)) return nullptr;
@@ -176,6 +154,8 @@ void Reset(const mjModel* m, mjtNum* state, void* data, int instance) {
   const Assembly* assembly = static_cast<const Assembly*>(data);
   if (assembly && IsPlugin(m, instance, kMediumPlugin)) {
     ResetMediumState(assembly->medium, state);
+  } else if (IsPlugin(m, instance, kBodyPlugin)) {
+    mju_zero(state, HistoryStateSize(m, instance));
   }
 }
 
@@ -186,7 +166,12 @@ void Compute(const mjModel* m, mjData* d, int instance, int) {
 
 void Advance(const mjModel* m, mjData* d, int instance) {
   const Assembly* assembly = Stored(d, instance);
-  if (assembly && assembly->medium.instance == instance) AdvanceMedium(assembly->medium, m, d);
+  if (!assembly) return;
+  if (assembly->medium.instance == instance) AdvanceMedium(assembly->medium, m, d);
+  if (assembly->last != instance) return;
+  for (const BodyFluid& body : assembly->bodies) {
+    if (body.history.on()) AdvanceHistory(m, d, assembly->medium, body);
+  }
 }
 
 void Register(const char* name, const char* const* attributes, int count,
@@ -287,8 +272,7 @@ Flow FluidAround(const mjModel* m, const mjData* d, int body, const mjtNum point
 }
 
 void RegisterAssembly() {
-  Register(kBodyPlugin, kBodyAttributes, kBodyAttributeCount,
-           [](const mjModel*, int) { return 0; });
+  Register(kBodyPlugin, kBodyAttributes, kBodyAttributeCount, HistoryStateSize);
   Register(kMediumPlugin, kMediumAttributes, kMediumAttributeCount, MediumStateSize);
   Register(kFoilPlugin, kFoilAttributes, kFoilAttributeCount,
            [](const mjModel*, int) { return 0; });

@@ -29,6 +29,7 @@ struct BodyLimits {
 // Constants of a model, owned by the plugin data of one mjData.
 struct Assembly {
   int owner = -1;  // instance that evaluates
+  int last = -1;   // that advances last
   Medium medium;
   std::vector<BodyFluid> bodies;   // ascending body id
   std::vector<BodyLimits> limits;  // of each of them; no force depends on it

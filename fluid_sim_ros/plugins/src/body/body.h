@@ -10,6 +10,7 @@
 #include "body/damping.h"
 #include "body/displacement.h"
 #include "body/ellipsoid.h"
+#include "body/history.h"
 #include "medium/medium.h"
 #include "shared/config.h"
 
@@ -48,6 +49,7 @@ struct BodyFluid {
   DragOptions options;
   mjtNum spin_damping[3] = {0, 0, 0};  // linear rotational damping per unit density [m^5/s]
   std::vector<DragEllipsoid> ellipsoids;
+  History history;
 
   bool buoyant = false;
   mjtNum volume = 0;                   // displaced when whole [m^3]

@@ -249,6 +249,7 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
       AddEllipsoidForces(body, part, flow, nu, secant, out);
     }
     AddSpinDamping(body, flow, nu, secant, out);
+    if (body.history.on()) AddHistory(m, d, body, flow, motion, nu, secant, out);
   }
 }
 

@@ -163,7 +163,8 @@ const char* const kBodyAttributes[] = {"added_mass",
                                        "rotational_damping",
                                        "volume",
                                        "center_of_buoyancy",
-                                       "geoms"};
+                                       "geoms",
+                                       "history"};
 const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
 
 bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bool has_foil,
@@ -182,6 +183,7 @@ bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bo
     return config.Fail("reference_point needs added_mass or damping");
   }
   out->free_dof = FreeTreeDof(m, body);
+  if (!ReadHistory(m, config, medium, instance, out)) return false;
   return CheckBody(m, config, medium, *out);
 }
 

@@ -19,6 +19,10 @@ std::vector<int> FluidGeoms(const mjModel* m, int body);
 bool ReadDrag(const mjModel* m, const Config& config, const Medium& medium, bool has_foil,
               BodyFluid* out);
 
+// Whether it remembers its accelerations; drag and free_dof must have been read.
+bool ReadHistory(const mjModel* m, const Config& config, const Medium& medium, int instance,
+                 BodyFluid* out);
+
 // Displaced volume, its centre, and the solids that a surface may cut.
 bool ReadBuoyancy(const mjModel* m, const Config& config, BodyFluid* out);
 
