@@ -83,8 +83,9 @@ def draw(rows: Sequence[Row]) -> None:
                    label='measured (their fit)' if i == 0 else None)  # fmt: skip
         right.plot(*settle(diameter, ratio, 3 * time), f'C{i}:', lw=1.2)
         mended = settle(diameter, ratio, 3 * time, history='dorgan_loth')
-        right.plot(*mended, f'C{i}', lw=1.2, label=f'{name}, with history (dotted: without)')
-    right.set(xlabel='t [s]', ylabel='[m/s]', title='Spheres that sink in water')
+        right.plot(*mended, f'C{i}', lw=1.2, label=name)
+    right.set(xlabel='t [s]', ylabel='[m/s]')
+    right.set_title('Spheres that sink in water (dotted: without history)')
     right.legend(fontsize=8)
     for axis in (left, right):
         axis.grid(alpha=0.3)

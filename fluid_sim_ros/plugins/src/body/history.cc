@@ -50,6 +50,9 @@ mjtNum Mean(mjtNum x) { return x > 0 ? -std::expm1(-x) / x : 1; }
 
 int FluidOf(const Flow& flow) { return flow.lower ? 1 : 2; }
 
+// Which fluid the state is of; 0 also for a state that no step has written.
+int FluidOf(const mjtNum* state) { return state[kFluid] == 1 ? 1 : state[kFluid] == 2 ? 2 : 0; }
+
 // Velocity of the sphere's centre from the state after a step; d's poses are those before it.
 void CenterMotion(const mjModel* m, const mjData* d, const BodyFluid& body, mjtNum point_w[3],
                   mjtNum velocity_w[3]) {
@@ -100,7 +103,7 @@ void AddHistory(const mjModel* m, const mjData* d, const BodyFluid& body, const 
                 const Motion& motion, const mjtNum nu[6], bool secant, BodyForces* out) {
   const History& history = body.history;
   const mjtNum* state = d->plugin_state + m->plugin_stateadr[history.instance];
-  const int fluid = static_cast<int>(state[kFluid]);
+  const int fluid = FluidOf(state);
   if (flow.viscosity <= 0 || (fluid != 0 && fluid != FluidOf(flow))) return;
   mjtNum arm[3], velocity_b[3], velocity[3], weight[kHistoryModes];
   mju_sub3(arm, history.center, body.point);
@@ -139,7 +142,7 @@ void AdvanceHistory(const mjModel* m, mjData* d, const Medium& medium, const Bod
   Flow flows[2];
   FlowsAt(medium, m, d, body.id, point, above ? 0 : 1, flows);
   mju_subFrom3(velocity, flows[0].velocity);
-  const int fluid = FluidOf(flows[0]), before = static_cast<int>(state[kFluid]);
+  const int fluid = FluidOf(flows[0]), before = FluidOf(state);
   mjtNum change[3], span = d->time - state[kTime];
   if (before == 0) {  // the first step: what it did to the velocity
     span = m->opt.timestep;

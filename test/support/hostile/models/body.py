@@ -25,6 +25,12 @@ class Body:
         Name of its hinge, '' without one.
     foil
         A foil acts on it.
+    free
+        It has a free joint.
+    balls, others
+        How many of its geoms with ``fluidshape="ellipsoid"`` are spheres, and are not.
+    alone
+        No body may hang on it.
 
     """
 
@@ -33,6 +39,10 @@ class Body:
     ellipsoid: bool = False
     hinge: str = ''
     foil: bool = False
+    free: bool = False
+    balls: int = 0
+    others: int = 0
+    alone: bool = False
 
 
 def drawn_body(draw: Draw, body: Body, fluid: Fluid) -> Keys:
@@ -70,7 +80,11 @@ def _drag(draw: Draw, body: Body, fluid: Fluid) -> Keys:
     if drag != 'ellipsoid':
         return draw.some({'drag': drag}, 0.7)
     spin = [draw.zero_or_size(1e-6, 1) for _ in range(draw.choice((1, 3)))]
-    return {'drag': drag} | draw.some({
+    history: Keys = draw.some({'history': 'none'}, 0.1)
+    if body.free and (body.balls, body.others) == (1, 0) and fluid.density and fluid.viscosity:
+        history = draw.some({'history': draw.choice(('basset', 'mei_adrian', 'dorgan_loth'))}, 0.8)
+        body.alone = bool(history)
+    return {'drag': drag} | history | draw.some({
         'drag_area': draw.choice(('lemma', 'true')),
         'drag_reynolds': draw.choice(('constant', 'brown_lawler')),
         'drag_angular': draw.choice(('slender', 'swept')),

@@ -109,6 +109,7 @@ class _Writer:
         joint_xml = f'<joint name="j_{body.name}" type="{joint}" {axis}/>' if joint else ''
         if joint == 'hinge':
             body.hinge = f'j_{body.name}'
+        body.free = joint == 'free'
         geoms = ''.join(self.geom(body) for _ in range(draw.choice((1, 1, 2))))
         plugin, chance = '', draw.random()
         if chance < 0.7:
@@ -121,7 +122,7 @@ class _Writer:
         site = f's_{body.name}'
         self.sites.append((site, body))
         inner = ''
-        if depth < 2 and draw.yes(0.3):
+        if depth < 2 and not body.alone and draw.yes(0.3):
             inner = self.body(body.name, depth + 1)
         where = written([draw.gauss(0, 1) for _ in range(3)])
         return (
@@ -134,7 +135,7 @@ class _Writer:
 
     def geom(self, body: Body) -> str:
         draw = self.draw
-        kind = draw.choice((*_SIZES, 'mesh'))
+        kind = draw.choice((*_SIZES, 'sphere', 'mesh'))
         size = written([draw.size(0.01, 1) for _ in range(_SIZES.get(kind, 0))])
         shape = f'size="{size}"' if size else 'mesh="wedge"'
         name = f'g{len(body.geoms)}_{body.name}'
@@ -142,6 +143,8 @@ class _Writer:
         fluid = ''
         if draw.yes(0.6):
             body.ellipsoid = True
+            body.balls += kind == 'sphere'
+            body.others += kind != 'sphere'
             fluid = 'fluidshape="ellipsoid"'
             if draw.yes():
                 numbers = written([draw.zero_or_size(0.01, 2) for _ in range(5)])

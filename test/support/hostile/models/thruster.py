@@ -1,5 +1,7 @@
 """The keys of ``fluid_sim.thruster``, and the actuators that go with them."""
 
+import math
+
 from test.support.hostile.models.draw import Draw, Keys, written
 from test.support.hostile.models.medium import Fluid
 
@@ -38,7 +40,27 @@ def drawn_thruster(draw: Draw, fluid: Fluid) -> Keys:
         if keys['ground_effect'] not in ('none', '0'):
             keys |= draw.some({'ground': written(draw.signed(10))})
             keys.setdefault('diameter', '0.25')
-    return keys | _fluid(draw, fluid, curve, keys)
+    keys |= _fluid(draw, fluid, curve, keys)
+    return keys | (_inflow(draw, curve, keys) if curve in ('quadratic', 'table') else {})
+
+
+def _inflow(draw: Draw, curve: str, keys: Keys) -> Keys:
+    if draw.yes(0.6):
+        return draw.some({'inflow': 'false'}, 0.2)
+    found = {'diameter': keys.get('diameter', written(draw.size(0.02, 1)))}
+    found |= draw.some({'inflow': draw.choice(('true', 'true', 'false'))}, 0.8)
+    advance = [draw.size(0.05, 5, far=(1e-30, 1e12)) for _ in range(draw.choice((1, 2)))]
+    if curve == 'quadratic' and draw.yes():
+        # above what the disc draws at rest, sqrt(2 k/(pi rho)) 2 pi/D^2
+        density, diameter = float(keys.get('density', '1000')), float(found['diameter'])
+        most = max(float(word) for word in keys['thrust_coefficient'].split())
+        least = math.sqrt(2 * most / (math.pi * density)) * 2 * math.pi / diameter**2
+        advance = [least * (1.001 + draw.size(1e-3, 10)) for _ in advance]
+        found |= {'inflow_law': 'momentum', 'density': written(density)}
+    else:
+        found |= draw.some({'inflow_law': 'linear'}, 0.3)
+        found |= draw.some({'measured_advance': written(0.9 * min(advance) * draw.random())}, 0.3)
+    return found | {'zero_thrust_advance': written(advance)}
 
 
 def _fluid(draw: Draw, fluid: Fluid, curve: str, keys: Keys) -> Keys:
