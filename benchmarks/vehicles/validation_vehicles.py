@@ -127,8 +127,8 @@ def t200() -> list[Row]:
         Row('T200', 'thrust at rest, 16 V', 'N', full, 'Blue Robotics, September 2019',
             t200_thrust(0.0), 'the table is the sheet'),
         Row('T200', 'thrust at 1 m/s of inflow', 'N', None,
-            f'none found; {ducted:.1f} N by the ducted series Ka 4-70, nozzle 19A (Oosterveld 1970) '
-            f'with its K_T at rest; {MEMORY}',
+            f'none found; {ducted:.1f} N by the ducted series Ka 4-70, nozzle 19A (Oosterveld '
+            f'1970) with its K_T at rest; {MEMORY}',
             t200_thrust(1.0), 'the sheet is at rest; the option takes the series',
             t200_thrust(1.0, inflow='true', zero_thrust_advance=DUCTED_J0, diameter=diameter),
             INFLOW),
