@@ -1,4 +1,4 @@
-"""A vehicle's geoms and force arrows as visualization markers, in the map frame."""
+"""A vehicle's geoms, what is tied to it and force arrows as markers, in the map frame."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.messages.templates import Source, Template
+from fluid_sim_ros.messages.tied import cords, tied_bodies
 from fluid_sim_ros.messages.topic import LATCHED, StateTopic
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
@@ -14,7 +15,7 @@ from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
 from fluid_sim_ros.simulation import Simulation
 
 MARKERS = 'visualization_msgs/msg/MarkerArray'
-_ARROW, _CUBE, _SPHERE, _CYLINDER = range(4)  # of visualization_msgs/Marker
+_ARROW, _CUBE, _SPHERE, _CYLINDER, _LINE_STRIP = range(5)  # of visualization_msgs/Marker
 _GEOM = mujoco.mjtGeom
 #: Geom type -> marker type and the factors that turn geom_size into the marker's full extents.
 _SHAPES = {
@@ -28,6 +29,7 @@ _SHAPES = {
 #: Arrow per observed wrench: columns and colour (red, green, blue).
 _ARROWS = {'fluid': (nat.TOTAL, (0.1, 0.5, 0.9)), 'thrust': (nat.THRUST, (0.9, 0.5, 0.1))}
 _ARROW_SIZE = (0.02, 0.04, 0.06)  # shaft, head diameter, head length [m]
+_THINNEST = 0.005  # line of a cord that can be seen [m]
 
 
 def marker(
@@ -63,7 +65,7 @@ def marker(
 
 class MarkerTopic(StateTopic):
     """
-    The markers of one vehicle.
+    The markers of one vehicle, and of a tether or a load that is tied to it.
 
     Force arrows start at the base_link origin; a force equal to the vehicle's weight in air is
     drawn 1 m long. Made for display: the node publishes them at their rate of wall time at most,
@@ -90,11 +92,16 @@ class MarkerTopic(StateTopic):
         self._model, self._data = simulation.model, simulation.observed
         self._row = row
         self._metres_per_newton = 1.0 / weight_in_air(self._model, vehicle.body_id)
-        self._geoms = [g for g in range(self._model.ngeom) if self._is_drawn(g, vehicle.body_id)]
+        others = [v.body_id for v in simulation.vehicles.values() if v.name != vehicle.name]
+        tied = tied_bodies(self._model, vehicle.body_id, others)
+        own = [b for b in range(self._model.nbody) if self._is_part(b, vehicle.body_id)]
+        self._geoms = self._drawn([*own, *tied])
+        self._cords = cords(self._model, {*own, *tied})
         self._bodies = self._model.geom_bodyid[self._geoms]
         self._quats_bg_wxyz = self._model.geom_quat[self._geoms]
         self._poses = np.zeros((len(self._geoms), 7))
         self._arrows = np.zeros((len(_ARROWS), 6))
+        self._lines = [np.zeros(3 * len(sites)) for sites in self._cords.values()]
         markers = [self._geom_marker(geom, vehicle.name) for geom in self._geoms]
         sources: dict[str, Source] = {
             f'markers[{i}].pose': pose for i, pose in enumerate(self._poses)
@@ -103,6 +110,9 @@ class MarkerTopic(StateTopic):
             sources[f'markers[{len(markers)}].points'] = self._arrows[i]
             arrow = marker('forces', i, _ARROW, _ARROW_SIZE, (*colour, 1.0))
             markers.append({**arrow, 'text': name, 'points': [{}, {}]})
+        for line, (tendon, sites) in zip(self._lines, self._cords.items(), strict=True):
+            sources[f'markers[{len(markers)}].points'] = line
+            markers.append(self._cord_marker(tendon, len(sites), vehicle.name))
         template = Template.of(MARKERS, {'markers': markers}, list(sources))
         copies = [(place, stamp) for place in template.stamps]
         copies += template.copies(list(sources.values()))
@@ -111,14 +121,25 @@ class MarkerTopic(StateTopic):
             needs_forces=True, prepare=self._take_state, quality=LATCHED,
         )  # fmt: skip
 
-    def _is_drawn(self, geom: int, base: int) -> bool:
-        model = self._model
-        if int(model.geom_type[geom]) not in _SHAPES:
-            return False
-        body = model.geom_bodyid[geom]
+    def _is_part(self, body: int, base: int) -> bool:
         while body > base:
-            body = model.body_parentid[body]
-        return bool(body == base)
+            body = int(self._model.body_parentid[body])
+        return body == base
+
+    def _drawn(self, bodies: Sequence[int]) -> list[int]:
+        model, chosen = self._model, set(bodies)
+        return [
+            geom for geom in range(model.ngeom)
+            if int(model.geom_type[geom]) in _SHAPES and int(model.geom_bodyid[geom]) in chosen
+        ]  # fmt: skip
+
+    def _cord_marker(self, tendon: int, count: int, vehicle: str) -> dict[str, Any]:
+        model = self._model
+        material = model.tendon_matid[tendon]
+        rgba = model.tendon_rgba[tendon] if material < 0 else model.mat_rgba[material]
+        width = max(2 * float(model.tendon_width[tendon]), _THINNEST)
+        line = marker(f'{vehicle}/cords', tendon, _LINE_STRIP, (width, 0, 0), rgba.tolist())
+        return {**line, 'pose.orientation.w': 1.0, 'points': [{}] * count}
 
     def _geom_marker(self, geom: int, vehicle: str) -> dict[str, Any]:
         model = self._model
@@ -138,7 +159,9 @@ class MarkerTopic(StateTopic):
             mujoco.mju_rotVecQuat(force_w, row[columns][:3], row[nat.QUATERNION])
             ends[:3] = row[nat.POSITION]
             ends[3:] = ends[:3] + force_w * self._metres_per_newton
-        for numbers in (poses, self._arrows):
+        for line, sites in zip(self._lines, self._cords.values(), strict=True):
+            line[:] = data.site_xpos[sites].reshape(-1)
+        for numbers in (poses, self._arrows, *self._lines):
             numbers[:] = numbers.astype(np.float32)
 
 

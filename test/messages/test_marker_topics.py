@@ -62,3 +62,54 @@ def test_the_rate_is_an_upper_limit_in_whole_steps(rate, timestep, steps):
     simulation = Simulation('sphere', timestep=timestep)
     _, topic = shown(simulation, 'sphere', **(rates | {'markers.rate': rate}))
     assert topic.period == steps
+
+
+def test_a_slung_load_and_its_cord_are_drawn():
+    simulation = Simulation('x500_slung_load')
+    simulation.step(200)
+    found, _ = shown(simulation, 'x500')
+    model, data = simulation.model, simulation.observed
+    load = model.geom('load').id
+    place = next(
+        name.removesuffix('.id') for name, value in found.items()
+        if name.endswith('.id') and value == load and found[name[:-3] + '.ns'] == 'x500/geoms'
+    )  # fmt: skip
+    position = numbers(found, f'{place}.pose.position', 'xyz')
+    np.testing.assert_allclose(position, data.geom_xpos[load], atol=1e-6)
+    cord = next(name.removesuffix('.ns') for name, value in found.items() if value == 'x500/cords')
+    assert found[f'{cord}.type'] == 4  # LINE_STRIP
+    assert found[f'{cord}.pose.orientation.w'] == 1.0
+    for i, site in enumerate(('hook', 'eye')):
+        point = numbers(found, f'{cord}.points[{i}]', 'xyz')
+        np.testing.assert_allclose(point, data.site(site).xpos, atol=1e-6)
+
+
+def test_every_segment_of_a_tether_is_drawn():
+    simulation = Simulation('bluerov2_tether')
+    simulation.step(100)
+    found, _ = shown(simulation, 'bluerov2')
+    model = simulation.model
+    drawn = {found[name] for name in found if name.endswith('.id')}
+    segments = [
+        geom for geom in range(model.ngeom)
+        if model.body(model.geom_bodyid[geom]).name.startswith('tether_')
+    ]  # fmt: skip
+    assert len(segments) >= 16
+    assert set(segments) <= drawn
+
+
+def test_what_is_tied_to_one_vehicle_of_a_fleet_is_drawn_with_that_one(tmp_path):
+    path = tmp_path / 'pair.yaml'
+    path.write_text("""vehicles:
+  one: {model: x500_slung_load, vehicle: x500, keyframe: hover}
+  two: {model: x500, position: [5, 0, 2], keyframe: hover}
+timestep: 0.002
+""")
+    simulation = Simulation(path)
+    one, _ = shown(simulation, 'one')
+    two, _ = shown(simulation, 'two')
+    assert 'one/cords' in one.values()
+    load = simulation.model.geom('one/load').id
+    assert load in [v for k, v in one.items() if k.endswith('.id')]
+    assert not any(str(value).endswith('/cords') for value in two.values())
+    assert load not in [v for k, v in two.items() if k.endswith('.id')]
