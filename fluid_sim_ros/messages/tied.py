@@ -1,5 +1,6 @@
 """What is tied to a vehicle without being part of it: a tether, a slung load, the cord between."""
 
+import itertools
 from collections.abc import Collection, Iterator
 
 import mujoco
@@ -81,4 +82,4 @@ def _edges(model: mujoco.MjModel) -> Iterator[tuple[int, int]]:
             yield int(root[ends[0]]), int(root[ends[1]])
     for tendon in range(model.ntendon):
         bodies = [int(root[model.site_bodyid[site]]) for site in _sites(model, tendon)]
-        yield from zip(bodies[:-1], bodies[1:], strict=True)
+        yield from itertools.pairwise(bodies)
