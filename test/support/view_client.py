@@ -20,8 +20,8 @@ _CAMERA = {
 class ViewClient:
     """What a browser knows of a page."""
 
-    def __init__(self, socket):
-        self._socket = socket
+    def __init__(self, socket, url):
+        self._socket, self.url = socket, url
         self.controls, self.nodes, self.moved_at = {}, {}, []
         self.changed = threading.Condition()
         self.send(_CAMERA)
@@ -100,4 +100,4 @@ def client(url, **options):
     with connect(
         address, subprotocols=[f'viser-v{viser.__version__}'], max_size=None, **options
     ) as socket:
-        yield ViewClient(socket)
+        yield ViewClient(socket, url)

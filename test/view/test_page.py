@@ -8,6 +8,8 @@ import pytest
 
 pytest.importorskip('viser', reason='the extra view is not installed')
 
+from websockets.sync.client import connect
+
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.view.simulated import SimulatedSource, ViewOptions
@@ -80,6 +82,36 @@ def test_the_view_does_not_change_the_trajectory():
         alone.step(source.simulation.step_count)
         assert source.simulation.data.qpos.tobytes() == alone.data.qpos.tobytes()
         assert source.simulation.data.qvel.tobytes() == alone.data.qvel.tobytes()
+
+
+def test_keys_steer_a_vehicle_that_is_held_and_on_release_it_holds():
+    with viewed('rov', pace=10.0) as (source, browser):
+        helm = source._helmsman._held['bluerov2_heavy'][1]
+        depth = helm.target.depth
+        address = browser.url.replace('http', 'ws', 1) + 'steer'
+        with connect(address, origin=browser.url.rstrip('/')) as keys:
+            keys.send('[0, 0, 1, 0]')  # up
+            browser.wait_for(lambda page: helm.target.depth < depth - 0.5)
+            keys.send('[0, 0, 0, 0]')
+            browser.wait_for(lambda page: not any(moves(source)))
+            keys.send('[1, 0, 0, 0]')
+            browser.wait_for(lambda page: any(moves(source)))
+            keys.send('["../x", 0, 0, 0]')
+            keys.send('[2, 0, 0, 0]')
+            browser.wait_for(lambda page: any('allowed is -1 to 1' in t for t in page.texts()))
+        # the page is closed while a key is down: the vehicle holds
+        browser.wait_for(lambda page: not any(moves(source)))
+        held = helm.target
+        browser.set('t1', 5.0)
+        browser.wait_for(lambda page: 'bluerov2_heavy' not in source.frame().steered)
+        browser.wait_for(lambda page: page.controls['hold and steer']['value'] is False)
+        browser.set('hold and steer', True)
+        browser.wait_for(lambda page: 'bluerov2_heavy' in source.frame().steered)
+        assert source._helmsman._held['bluerov2_heavy'][1].target != held
+
+
+def moves(source):
+    return source._helmsman._moving.get('bluerov2_heavy', ())
 
 
 def test_two_browsers_and_a_lost_one():

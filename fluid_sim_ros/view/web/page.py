@@ -14,6 +14,7 @@ from fluid_sim_ros.view.web.looks import Looks
 from fluid_sim_ros.view.web.panels import Panels
 from fluid_sim_ros.view.web.plots import Plots
 from fluid_sim_ros.view.web.scene import Scene
+from fluid_sim_ros.view.web.steering import Steering, script
 
 #: Pictures a second that are sent, and updates a second of numbers and of plots.
 RATE, _NUMBERS_RATE, _PLOTS_RATE = 30.0, 5.0, 3.0
@@ -57,10 +58,15 @@ class Page:
         port: int,
         say: Callable[[str], None] = lambda line: None,
     ) -> None:
-        self.server = Server(host, port, f'fluid_sim: {source.title}')
-        self.url, self.drawn = self.server.url, 0
         self._source, self._say_aloud = source, say
         self._looks = Looks(next(iter(source.vehicles)))
+        title = f'fluid_sim: {source.title}'
+        if orders.Steer in source.takes:
+            keys = Steering(source, lambda: self._looks.vehicle, self._say)
+            self.server = Server(host, port, title, keys.serve, script())
+        else:
+            self.server = Server(host, port, title)
+        self.url, self.drawn = self.server.url, 0
         self._generation = -1
         self._remark, self._remark_at = '', 0.0
         self._ended = threading.Event()

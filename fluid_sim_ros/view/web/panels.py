@@ -58,6 +58,7 @@ class Panels:
         self._gui, self._source, self._looks = server.gui, source, looks
         self._say = say
         self._touched = 0.0
+        self._held: Any = None
         self._sliders: dict[str, Any] = {}
         self._flows: dict[str, list[Any]] = {}
         self._status = self._gui.add_html('')
@@ -96,6 +97,8 @@ class Panels:
         if self._seek is not None and abs(self._seek.value - frame.time) > 1e-3:
             self._seek.value = frame.time
         self._forces.show(frame)
+        if self._held is not None:
+            self._held.value = self._looks.vehicle in frame.steered
         if time.monotonic() - self._touched > _LEFT_ALONE:
             self._show_commands(frame)
 
@@ -161,7 +164,6 @@ class Panels:
     def _add_steering(self) -> None:
         source, name = self._source, self._looks.vehicle
         vehicle = source.vehicles[name]
-        self._held: Any = None
         if orders.Hold in source.takes and vehicle.thrusters:
             self._held = self._gui.add_checkbox('hold and steer', False)
             self._on(self._held, lambda value: self._touch(orders.Hold(name, bool(value))))
@@ -238,8 +240,6 @@ class Panels:
         for stream, sliders in self._flows.items():
             for slider, value in zip(sliders, frame.flows.get(stream, ()), strict=False):
                 slider.value = min(max(float(value), slider.min), slider.max)
-        if getattr(self, '_held', None) is not None:
-            self._held.value = self._looks.vehicle in frame.steered
 
 
 def _pace_name(pace: float) -> str:
