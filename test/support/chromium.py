@@ -72,10 +72,11 @@ class Browser:
 
 
 @contextlib.contextmanager
-def browser(folder, url, size=(1280, 800)):
+def browser(folder, url, size=(1280, 800), webgl=True):
     """Give a tab that has opened a page."""
     command = [
-        PROGRAM, *_OPTIONS, f'--user-data-dir={folder}',
+        PROGRAM, *_OPTIONS, *([] if webgl else ['--disable-3d-apis']),
+        f'--user-data-dir={folder}',
         f'--window-size={size[0]},{size[1]}', 'about:blank',
     ]  # fmt: skip
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -38,8 +38,11 @@ class ViewClient:
                 size = int.from_bytes(raw[8:16], 'little')
                 packed = zstandard.ZstdDecompressor().decompress(raw[16 : 16 + size])
                 with self.changed:
-                    for message in msgspec.msgpack.decode(packed)['messages']:
+                    messages = msgspec.msgpack.decode(packed)['messages']
+                    for message in messages:
                         self._take(message)
+                    if any(m.get('name', '').startswith('/world') for m in messages):
+                        self.moved_at.append(time.monotonic())
                     self.changed.notify_all()
 
     def _take(self, message):
@@ -56,8 +59,6 @@ class ViewClient:
             self.controls[message['props']['label']] = message
         elif kind == 'SetPositionMessage':
             self.nodes[message['name']] = message['position']
-            if message['name'] == '/world':
-                self.moved_at.append(time.monotonic())
         elif 'name' in message and 'props' in message:
             self.nodes.setdefault(message['name'], None)
 

@@ -57,11 +57,11 @@ class Scene:
         self._api.set_up_direction('+z')
         self._world = self._api.add_frame('/world', show_axes=False)
         mujoco.mj_forward(stage.model, stage.data)
-        self._bodies = self._add_bodies('body', 1.0)
-        self._ghosts: dict[int, Any] = {}
         none = np.zeros((1, 2, 3))
         extent = self._extent = stage.extents[looks.vehicle]
         self._around = Surroundings(server, stage, extent)
+        self._bodies = self._add_bodies('body', 1.0)
+        self._ghosts: dict[int, Any] = {}
         self._arrows = self._api.add_arrows(
             '/world/forces', none, (0, 0, 0), shaft_radius=0.025 * extent,
             head_radius=0.07 * extent, head_length=0.16 * extent, visible=False,
@@ -113,7 +113,9 @@ class Scene:
             parts = [
                 (color, found)
                 for color, ids in colors(model, geoms).items()
-                if (found := triangles(model, data, root, ids)) is not None
+                # see-through scenery stands for the water, which is drawn here as it moves
+                if not (root == 0 and color[3] < 1.0 and self._around.has_surface)
+                and (found := triangles(model, data, root, ids)) is not None
             ]
             if not parts:
                 continue

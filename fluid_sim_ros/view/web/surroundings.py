@@ -32,11 +32,16 @@ class Surroundings:
     extent
         Of the vehicle that is followed [m].
 
+    Attributes
+    ----------
+    has_surface
+        Whether the model has a free surface, which is drawn.
+
     """
 
     def __init__(self, server: viser.ViserServer, stage: Stage, extent: float) -> None:
         self._api, self._stage, self._extent = server.scene, stage, extent
-        self._has_surface = self._kind_of_surface() != surface.NO_SURFACE
+        self.has_surface = self._kind_of_surface() != surface.NO_SURFACE
         self._water: Any = None
         self._water_at: tuple[float, ...] = ()
         self._under: bool | None = None
@@ -65,7 +70,7 @@ class Surroundings:
                 plane_color=(214, 210, 198), plane_opacity=1.0, fade_distance=80.0,
                 position=data.geom_xpos[geom], wxyz=quat,
             )  # fmt: skip
-        if not planes and not self._has_surface:  # something to see the motion against
+        if not planes and not self.has_surface:  # something to see the motion against
             self._api.add_grid(
                 '/world/reference',
                 infinite_grid=True,
@@ -109,7 +114,7 @@ class Surroundings:
 
         """
         self._draw_background(self.is_under(eye))
-        if not self._has_surface:
+        if not self.has_surface:
             return
         extent = self._extent
         at = tuple(np.round(place[:2] / extent) * extent)
