@@ -13,6 +13,8 @@ from fluid_sim_ros.view.web.shapes import LEFT_OUT, grid_faces
 
 #: Points per side of the water, and how they spread: x = reach sinh(k s)/sinh(k), -1 <= s <= 1.
 _POINTS, _SPREAD, _REACH = 57, 3.5, 60.0
+#: Waves are drawn in every second picture: they are slower than what swims in them.
+_EVERY = 2
 _WATER, _WATER_OPACITY = (70, 140, 180), 0.55
 #: Top and bottom of the background in air and under water (red, green, blue).
 _SKY = ((120, 165, 215), (226, 234, 242))
@@ -45,6 +47,7 @@ class Surroundings:
         self._water: Any = None
         self._water_at: tuple[float, ...] = ()
         self._under: bool | None = None
+        self._turn = 0
         self._add_lights()
         self._add_ground()
 
@@ -119,7 +122,8 @@ class Surroundings:
         extent = self._extent
         at = tuple(np.round(place[:2] / extent) * extent)
         moves = self._kind_of_surface() == surface.WAVES
-        if self._water is not None and at == self._water_at and not moves:
+        self._turn = (self._turn + 1) % _EVERY
+        if self._water is not None and at == self._water_at and not (moves and self._turn == 0):
             return
         ticks = np.sinh(_SPREAD * np.linspace(-1, 1, _POINTS)) / np.sinh(_SPREAD) * _REACH * extent
         x, y = np.meshgrid(at[0] + ticks, at[1] + ticks)
