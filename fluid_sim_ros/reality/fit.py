@@ -122,6 +122,10 @@ def fit(
     sigmas = _sigmas(shots)
     solver = Solver(flights, task, chosen, shots, sigmas)
     values = np.array([task.values.get(p.name, p.value) for p in chosen])
+    if task.start == 'measured':  # what noise alone would weigh is far below what is left over
+        sigmas = np.maximum(solver.left_over(values), sigmas)
+        solver.weigh(sigmas)
+        solver.distrust(values)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for last in (False, True):
             values, count, first = solver.solve(values, pool, report, keep)
@@ -129,6 +133,8 @@ def fit(
                 before = first
                 sigmas = np.maximum(solver.left_over(values), sigmas)
                 solver.weigh(sigmas)
+                if task.start == 'measured':
+                    solver.distrust(values)
         return _result(solver, values, pool, before, count, lines)
 
 

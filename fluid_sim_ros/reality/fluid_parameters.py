@@ -19,6 +19,9 @@ _SIX = {
 
 
 def _plugin(spec: mujoco.MjSpec, base: str) -> Any:
+    # taken away (fluid 'none'): MuJoCo crashes on what the body still says of it
+    if all(p.plugin_name not in ('', BODY) for p in spec.plugins):
+        return None
     reference = spec.body(base).plugin
     if not reference.active:
         return None
@@ -48,6 +51,8 @@ def body_parameters(spec: mujoco.MjSpec, base: str) -> list[Parameter]:
     def put_at(key: str, place: int) -> Callable[[mujoco.MjSpec, float], None]:
         def put(spec: mujoco.MjSpec, value: float) -> None:
             plugin = _plugin(spec, base)
+            if plugin is None:  # a rigid body has none of it
+                return
             words = words_of(plugin.config, key)
             words[place] = value
             plugin.config = {**plugin.config, key: text_of(words)}
@@ -57,6 +62,8 @@ def body_parameters(spec: mujoco.MjSpec, base: str) -> list[Parameter]:
     found = []
     for key, units in _SIX.items():
         words = plugin.config.get(key, '').split()
+        if len(words) == 36 and key == 'linear_damping':
+            found += _matrix(words, put_at)
         if len(words) != 6 or words[0] == 'auto':
             continue
         numbers = [float(word) for word in words]
@@ -76,6 +83,25 @@ def body_parameters(spec: mujoco.MjSpec, base: str) -> list[Parameter]:
                       0.01, put_at('center_of_buoyancy', i))
             for i, axis in enumerate('xyz')
         ]  # fmt: skip
+    return found
+
+
+def _matrix(
+    words: list[str], put_at: Callable[[str, int], Callable[[mujoco.MjSpec, float], None]]
+) -> list[Parameter]:
+    """Return the entries of a damping of 36 numbers: the diagonal, and those that are not 0."""
+    numbers = [float(word) for word in words]
+    found = []
+    for i, number in enumerate(numbers):
+        row, column = divmod(i, 6)
+        if row != column and number == 0:
+            continue
+        name = _DOFS[row] if row == column else f'{_DOFS[row]}_{_DOFS[column]}'
+        unit = 'N s/m' if i < 18 and column < 3 else ('N m s' if row > 2 < column else 'N s')
+        low = 0.0 if row == column else -np.inf
+        found.append(Parameter(f'linear_damping.{name}', unit, number, low, np.inf,
+                               abs(number) or 1e-3 * max(map(abs, numbers)),
+                               put_at('linear_damping', i)))  # fmt: skip
     return found
 
 

@@ -130,11 +130,15 @@ class Shooter:
         Its windows.
     weights
         1/sigma of the 12 errors.
+    free
+        Whether the states at the begins are unknown; else they are as measured.
 
     """
 
-    def __init__(self, shots: Shots, weights: Array) -> None:
-        self.shots, self.weights = shots, weights
+    def __init__(self, shots: Shots, weights: Array, free: bool = True) -> None:
+        self.shots, self.weights, self.free = shots, weights, free
+        #: Of each window, shape (w, 1): one that runs away says little of the parameters.
+        self.trust: Array = np.ones((len(shots.start), 1))
         self._by_state: Array | None = None
         self._spun: Array | None = None
 
@@ -184,7 +188,9 @@ class Shooter:
         spun = self._spin(flyer)
         base = self._fly(flyer, start, spun)
         later = [pool.submit(self.residual, other) for other in others]
-        if fresh or self._by_state is None:
+        if not self.free:
+            self._by_state = np.zeros((*base.shape, SIZE))
+        elif fresh or self._by_state is None:
 
             def along(i: int) -> Array:
                 by = np.zeros(SIZE)
@@ -216,4 +222,4 @@ class Shooter:
             [start[:, None], flyer.fly(flyer.states(start, flow, spun), controls, every)], axis=1
         )
         off: Array = np.nan_to_num(error_vectors(found, shots.wanted) * self.weights, nan=1e6)
-        return off.reshape(len(start), -1)
+        return off.reshape(len(start), -1) * self.trust

@@ -21,13 +21,21 @@ Report = Callable[[str, int, int], None]
 _MOST_STEPS = 20
 #: Fitted when no parameter moves by more than this share of its scale, or the sum of squares not.
 _SETTLED, _STILL = 1e-4, 1e-6
+#: Longest step of a parameter, in its scale, where windows start as measured.
+_LEAP = 0.3
 #: Step of the differences by a parameter, in its scale.
 _STEP = 1e-4
 
 
 @dataclass(frozen=True)
 class Task:
-    """What is fitted, and how: window length and distance of compared states [s]."""
+    """
+    What is fitted, and how: window length and distance of compared states [s].
+
+    ``start``: ``free`` (states at the begins are unknown, too) or ``measured`` (a window starts
+    where the log says, as in a comparison: best prediction, with a response that is too weak
+    where the signals are noisy).
+    """
 
     model: str
     parameters: tuple[str, ...]
@@ -38,6 +46,7 @@ class Task:
     settings: RunSettings = field(default_factory=RunSettings)
     outputs: tuple[Output, ...] = ()
     values: dict[str, float] = field(default_factory=dict)
+    start: str = 'free'
 
 
 class Solver:
@@ -82,7 +91,8 @@ class Solver:
         """
         self.sigmas = sigmas
         weights = 1.0 / np.repeat(sigmas, 3)
-        self.shooters = [Shooter(shot, weights) for shot in self.shots]
+        free = self.task.start == 'free'
+        self.shooters = [Shooter(shot, weights, free) for shot in self.shots]
 
     def _driven(self, flight: Flight, values: Array) -> Driven:
         edit = edit_of(self.chosen, values)
@@ -154,6 +164,8 @@ class Solver:
                 first = cost
             for _ in range(8):
                 step, moves = _step(linear, self.scales, damping)
+                if self.task.start == 'measured':  # windows grow away from the log: no leaps
+                    step *= min(1.0, _LEAP / np.abs(step / self.scales).max())
                 trial = np.clip(values + step, self.low, self.high)
                 starts = [
                     moved(shot.start, move) for shot, move in zip(self.shots, moves, strict=True)
@@ -176,6 +188,22 @@ class Solver:
             if change.max() < _SETTLED or cost - new < _STILL * cost:
                 return values, count + 1, first
         return values, _MOST_STEPS, first
+
+    def distrust(self, values: Array) -> None:
+        """
+        Count windows less that are farther off than most (Huber's weights, by window).
+
+        Parameters
+        ----------
+        values
+            Of the parameters, shape (p,).
+
+        """
+        for flight, shooter in zip(self.flights, self.shooters, strict=True):
+            shooter.trust[:] = 1.0
+            off = shooter.residual(self._driven(flight, values))
+            size = np.sqrt((off**2).mean(axis=1, keepdims=True))
+            shooter.trust = np.minimum(1.0, 1.5 * np.median(size) / np.maximum(size, 1e-300))
 
     def left_over(self, values: Array) -> Array:
         """

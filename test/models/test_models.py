@@ -14,7 +14,7 @@ from fluid_sim_ros.schema.settings import RunSettings
 MODELS = Path(__file__).parents[2] / 'models'
 OWN = (
     'sphere', 'ellipsoid', 'falling_card', 'swimmer', 'fish', 'fly_wing', 'quadrotor', 'rov',
-    'bluerov2', 'bluerov2_heavy', 'x500', 'crazyflie', 'aerosonde', 'remus100',
+    'bluerov2', 'bluerov2_heavy', 'x500', 'crazyflie', 'crazyflie_37g', 'aerosonde', 'remus100',
 )  # fmt: skip
 
 

@@ -49,6 +49,11 @@ def add_parser(commands: Any, show: Show) -> None:
     parser.add_argument(
         '--window', type=above(0), default=0.5, metavar='S', help='[s] (default .5)'
     )
+    parser.add_argument(
+        '--start', choices=('free', 'measured'), default='free',
+        help='states at the begin of windows: unknown, too (default), or as measured, which '
+        'predicts best where the model is not quite right',
+    )  # fmt: skip
     parser.add_argument('--from', dest='begin', type=float, default=0.0, metavar='S')
     parser.add_argument('--to', dest='end', type=float, default=float('inf'), metavar='S')
     parser.add_argument(
@@ -79,7 +84,7 @@ def _fit(arguments: argparse.Namespace, show: Show) -> int:
     task = Task(
         arguments.model, tuple(arguments.parameters), arguments.window, begin=arguments.begin,
         end=arguments.end, outputs=outputs_of(flights[0], mapping, arguments.model),
-        values=_kept(arguments.resume),
+        values=_kept(arguments.resume), start=arguments.start,
     )  # fmt: skip
     with progress_of_parts() as report:
         found = fit(flights, task, report, _keeper(arguments.resume))

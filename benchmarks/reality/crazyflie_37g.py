@@ -1,0 +1,172 @@
+"""
+The crazyflie models against flights of a real Crazyflie 2.1 of 37 g.
+
+Errors of open-loop windows by horizon of ``crazyflie`` (numbers of the literature) and of
+``crazyflie_37g`` (fitted to flights 00, 12, 20), beside two baselines, on each flight; what limits
+them: the response to the rotors' moments by band of frequency, what is left of the moments, and
+how far an unknown moment of 1 rad/s^2 turns the vehicle within a window. One picture in doc/img.
+
+The recordings (figure eights in motion capture, crazyflie-data-collection of IMRC, TU Berlin) are
+not part of this repository.
+Run: ``python -m benchmarks.reality.crazyflie_37g [--quick] [--json PATH] [--flights FOLDER]``.
+"""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from scipy.signal import butter, filtfilt
+
+from benchmarks.common import ROOT, arguments, write
+from fluid_sim_ros.flights.flight import Flight
+from fluid_sim_ros.flights.reader import read_flight
+from fluid_sim_ros.reality.compare import HORIZONS, Part, compare, fly_windows
+from fluid_sim_ros.reality.driven import comparable_scene, drive
+from fluid_sim_ros.reality.flying import Flyer
+from fluid_sim_ros.reality.parameters import all_parameters, edit_of
+from fluid_sim_ros.reality.residuals import residuals
+from fluid_sim_ros.reality.windows import cut, errors
+
+FLIGHTS = ROOT.parent / 'shared' / 'reference' / 'flights'
+TRAINED, LEFT_OUT = ('00', '12', '20'), '26'
+MODELS = ('crazyflie', 'crazyflie_37g')
+KEYS = ('position_m', 'velocity_m_s', 'attitude_deg')
+#: Bands in which the response to the rotors' moments is measured [Hz].
+BANDS = ((0.3, 2.0), (2.0, 5.0), (5.0, 9.0))
+#: Targets of the left-out flight, medians at 0.5 s; specific force along z, rms as a share of g.
+TARGETS = {'position_m': 0.03, 'velocity_m_s': 0.1, 'attitude_deg': 5.0, 'z_rms_of_g': 0.02}
+
+
+def medians(horizons: dict[str, Any]) -> dict[str, dict[str, float]]:
+    """Return the medians of errors by horizon."""
+    return {h: {key: errors[key]['median'] for key in KEYS} for h, errors in horizons.items()}
+
+
+def errors_of(flight: Flight) -> dict[str, Any]:
+    """Return the errors of models and baselines on one flight."""
+    result: dict[str, Any] = {}
+    for model in MODELS:
+        numbers = compare(flight, model, part=Part(horizons=HORIZONS)).numbers
+        result[model] = {
+            'horizons': medians(numbers['horizons']),
+            'rigid_body': medians(numbers['baselines']['rigid_body']['horizons']),
+            'z_rms_of_g': numbers['residuals']['specific_force']['z_rms_of_g'],
+            'words': numbers['words'],
+        }
+        result['hold_velocity'] = medians(numbers['baselines']['hold_velocity']['horizons'])
+    return result
+
+
+def limits_of(flight: Flight) -> dict[str, Any]:
+    """Return what limits a model on one flight."""
+    driven = drive(comparable_scene('crazyflie_37g'), flight)
+    flyer = Flyer(driven)
+    along = residuals(flyer, cut(flight, 0.5))
+    off = along.turn - along.turn_model
+    apart = float(np.median(np.diff(along.times)))
+    slow = butter(4, 2.0 * 2 * apart)
+    unknown = next(p for p in all_parameters(comparable_scene('crazyflie_37g'))
+                   if p.name == 'com.y')  # fmt: skip
+    inertia, weight = driven.model.body_inertia[driven.vehicle.body_id, 0], 0.037 * 9.81
+    shift = edit_of([unknown], [unknown.value - inertia / weight])  # a moment of 1 rad/s^2
+    part = Part(horizons=(0.5,))
+    plain = compare(flight, 'crazyflie_37g', part=part).windows
+    moved = drive(comparable_scene('crazyflie_37g'), flight, edit=shift)
+    apart_by = errors(
+        fly_windows(Flyer(moved), plain, (0.5,)), fly_windows(flyer, plain, (0.5,))
+    )  # fmt: skip
+    return {
+        'moment_left_over_rad_s2': np.sqrt((filtfilt(*slow, off, axis=0) ** 2).mean(0)).tolist(),
+        'unknown_moment_of_1_rad_s2': {
+            key: float(np.median(apart_by[key])) for key in KEYS
+        },
+        'response': {f'{a:g} to {b:g} Hz': _response(flight, a, b) for a, b in BANDS},
+    }  # fmt: skip
+
+
+def _response(flight: Flight, low: float, high: float) -> dict[str, float]:
+    """Return roll and pitch acceleration for each unit of the rotors' difference, 1e-6 rad/s^2."""
+    times = np.arange(flight.signals['rates'].times[0], flight.signals['rates'].times[-1], 0.002)
+    rates = flight.signals['rates'].between(times)
+    squares = flight.signals['rotor_speed'].between(times - 0.004) ** 2  # gyro: low pass of 80 Hz
+    band = butter(3, (low * 0.004, high * 0.004), btype='band')
+    turn = filtfilt(*band, np.gradient(rates, 0.002, axis=0), axis=0)
+    found = {}
+    for axis, (name, signs) in enumerate((('roll', (-1, -1, 1, 1)), ('pitch', (-1, 1, 1, -1)))):
+        given = filtfilt(*band, squares @ np.array(signs), axis=0)
+        found[name] = float(1e6 * (given @ turn[:, axis]) / (given @ given))
+        found[f'{name}_coherent'] = float(np.corrcoef(given, turn[:, axis])[0, 1] ** 2)
+    return found
+
+
+def draw(found: dict[str, Any], path: Path) -> None:
+    """Draw the errors of the left-out flight by horizon."""
+    mpl.use('Agg')
+    from matplotlib import pyplot as plt
+
+    figure, axes = plt.subplots(1, 3, figsize=(10, 3.4), layout='constrained')
+    rows = found[LEFT_OUT]
+    lines = [
+        ('crazyflie (literature)', rows['crazyflie']['horizons'], 's--', 'tab:gray'),
+        ('hold velocity and rates', rows['hold_velocity'], '^:', 'tab:orange'),
+        ('rigid body', rows['crazyflie_37g']['rigid_body'], 'v:', 'tab:red'),
+        ('crazyflie_37g (fitted)', rows['crazyflie_37g']['horizons'], 'o-', 'tab:blue'),
+    ]  # fmt: skip
+    labels = ('position [m]', 'velocity [m/s]', 'attitude [deg]')
+    for axis, key, label in zip(axes, KEYS, labels, strict=True):
+        for name, horizons, style, colour in lines:
+            axis.loglog([float(h) for h in horizons], [e[key] for e in horizons.values()], style,
+                        color=colour, label=name, markersize=4)  # fmt: skip
+        axis.plot(0.5, TARGETS[key], 'k*', label='target')
+        axis.set_xlabel('horizon [s]')
+        axis.set_title(f'median error of {label}', fontsize=9)
+        axis.set_xticks(HORIZONS, [f'{h:g}' for h in HORIZONS])
+        axis.minorticks_off()
+        axis.grid(alpha=0.3)
+    axes[0].legend(fontsize=7)
+    figure.savefig(path, dpi=110)
+
+
+def main() -> None:
+    """Compare, and write result and picture."""
+    chosen = arguments(__doc__, 'crazyflie_37g', more={'flights': 'folder of the recordings'})
+    folder = Path(chosen.flights) if chosen.flights else FLIGHTS
+    paths = {n: folder / f'crazyflie_figure8_{n}.usd' for n in (*TRAINED, LEFT_OUT)}
+    lost = [path.name for path in paths.values() if not path.exists()]
+    if lost:
+        print(
+            f'crazyflie_37g: the recordings {", ".join(lost)} are not in {folder.name}/ (they are '
+            'not part of this repository; --flights FOLDER): nothing to measure'
+        )
+        sys.exit(0)
+    if chosen.quick:
+        paths = {LEFT_OUT: paths[LEFT_OUT]}
+    flights = {number: read_flight(path) for number, path in paths.items()}
+    found = {number: errors_of(flight) for number, flight in flights.items()}
+    left = found[LEFT_OUT]
+    here = left['crazyflie_37g']['horizons']
+    baselines = (left['hold_velocity'], left['crazyflie_37g']['rigid_body'])
+    result = {
+        'trained': TRAINED, 'left_out': LEFT_OUT, 'errors': found, 'targets': TARGETS,
+        'at_half_a_second': here['0.5'] | {'z_rms_of_g': left['crazyflie_37g']['z_rms_of_g']},
+        'times_better_than_literature': min(
+            left['crazyflie']['horizons'][h][k] / here[h][k] for h in here for k in KEYS
+        ),
+        'times_better_than_literature_at_half_a_second': {
+            k: left['crazyflie']['horizons']['0.5'][k] / here['0.5'][k] for k in KEYS
+        },
+        'worse_than_a_baseline': [
+            f'{key} at {h} s' for h in here for key in KEYS
+            if any(here[h][key] >= rows[h][key] for rows in baselines)
+        ],
+        'limits': {number: limits_of(flight) for number, flight in flights.items()},
+    }  # fmt: skip
+    write(chosen.json, result)
+    if not chosen.quick:
+        draw(found, ROOT / 'doc' / 'img' / 'crazyflie_37g_reality.png')
+
+
+if __name__ == '__main__':
+    main()
