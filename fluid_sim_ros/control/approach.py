@@ -50,6 +50,25 @@ class Approach:
         self.velocity = (vx, vy)
         self.acceleration = (0.0, 0.0)
 
+    def distance(self, speed: float) -> float:
+        """
+        Return how far away a target is for which ``speed`` gives a speed.
+
+        Parameters
+        ----------
+        speed
+            [m/s], from 0 to the largest.
+
+        Returns
+        -------
+        float
+            [m].
+
+        """
+        if speed * self._gain <= self._most:
+            return speed / self._gain
+        return speed**2 / (2.0 * self._most) + 0.5 * self._linear
+
     def speed(self, distance: float) -> float:
         """
         Return the speed to have at a distance from the target.

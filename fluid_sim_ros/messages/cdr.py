@@ -258,3 +258,27 @@ def read_stamped_pair(data: bytes) -> PairCommand:
     return PairCommand(
         reader.stamp_ns(), reader.string(), reader.float64_array(3), reader.float64_array(3)
     )
+
+
+def read_pair(data: bytes) -> tuple[Array, Array]:
+    """
+    Return both vectors of a geometry_msgs/Twist.
+
+    Parameters
+    ----------
+    data
+        The message (CDR).
+
+    Returns
+    -------
+    linear, angular
+        [m/s] and [rad/s], shape (3,) each.
+
+    Raises
+    ------
+    CommandError
+        If the message is truncated or malformed.
+
+    """
+    reader = CdrReader(data)
+    return reader.float64_array(3), reader.float64_array(3)

@@ -8,6 +8,7 @@ import numpy as np
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.fins import PITCH, YAW, FinMixer
+from fluid_sim_ros.control.guidance.velocity import Velocity
 from fluid_sim_ros.control.propulsion import Propulsion
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.torpedo import CruiseTarget, TorpedoController, TorpedoGains
@@ -16,6 +17,7 @@ from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
+from fluid_sim_ros.ros.controllers.velocity_commands import Reach
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
 from fluid_sim_ros.simulation.fin_effect import fin_effect
@@ -96,6 +98,24 @@ class AuvController(ControllerNode):
         # one assignment, so that the loop in the other thread never sees half of a change
         self._wanted = tuple(parameters.number(self, name) for name in names)
 
+    def reach(self, gains: TorpedoGains) -> Reach:
+        """
+        Return which velocities the controller can follow.
+
+        Parameters
+        ----------
+        gains
+            Its gains.
+
+        Returns
+        -------
+        Reach
+            Any forward speed, and no motion sideways.
+
+        """
+        most = Velocity(math.inf, 0.0, gains.max_climb, gains.max_rate)
+        return Reach(most, 1.5 * gains.max_climb / gains.depth)
+
     def restart(self) -> None:
         """Take the depth and heading to hold from the next state."""
         self._first = None
@@ -126,6 +146,11 @@ class AuvController(ControllerNode):
         if waypoint is not None:
             to_x, to_y, to_z = waypoint.position_w
             depth, heading = -to_z, math.atan2(to_y - y, to_x - x)
+        piloted = self.velocity.target(state)
+        if piloted is not None:
+            velocity, moving = piloted
+            speed = max(velocity.ahead, 0.0)
+            depth, heading = -moving.position_w[2], moving.heading
         thrust, *fins = self._law.step(state, CruiseTarget(depth, heading, speed))
         joints = [fins[i] for i in self._order] if self._mixer is None else self._mixer.mix(*fins)
         return Answer(self._propulsion.thrusts(thrust), joints)

@@ -1,17 +1,14 @@
 """
 What the example controllers share: odometry in, commands out, one answer to each state.
 
-The main thread waits on the subscriptions itself and takes them raw, which answers a state in a
-fraction of the time of an executor's spin; a second thread runs the executor for the parameter
-services. The answer carries the stamp of the odometry, so the simulator can tell in lockstep
-which state it belongs to.
+The main thread takes odometry raw and answers it, in a fraction of the time of an executor's spin;
+a second thread runs the executor for the parameter services.
 """
 
 import math
-import struct
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geometry_msgs.msg import PoseStamped
 from rcl_interfaces.msg import SetParametersResult
@@ -24,16 +21,17 @@ from fluid_sim_ros.control.gains import Gains
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint, WaypointPlan, from_flat
 from fluid_sim_ros.errors import ConfigError, listed
-from fluid_sim_ros.messages.commands import JOINT_STATE
-from fluid_sim_ros.messages.templates import StampBytes, Template
-from fluid_sim_ros.messages.topic import NEWEST, STATE
+from fluid_sim_ros.messages.templates import StampBytes
+from fluid_sim_ros.messages.topic import NEWEST
 from fluid_sim_ros.ros.controllers import parameters as parameters
+from fluid_sim_ros.ros.controllers.command_publisher import CommandPublisher
 from fluid_sim_ros.ros.controllers.state_source import StateSource
 from fluid_sim_ros.ros.controllers.states import StampedState
+from fluid_sim_ros.ros.controllers.velocity_commands import Reach, VelocityCommands
 from fluid_sim_ros.ros.health.connections import Connections
 from fluid_sim_ros.ros.parameters.changes import judge
 from fluid_sim_ros.ros.parameters.table import Table, declare, value_of
-from fluid_sim_ros.ros.raw import PolledSubscription, RawPublisher, WaitSet
+from fluid_sim_ros.ros.raw import PolledSubscription, WaitSet
 from fluid_sim_ros.simulation.plant import plant_of
 
 #: Longest wait before signals are looked at again [s].
@@ -58,32 +56,14 @@ class Answer(NamedTuple):
     joints: Sequence[float] = ()
 
 
-class _Commands:
-    """Publishes commands as one list of a JointState, with a stamp."""
-
-    def __init__(
-        self, node: Node, topic: str, member: str, count: int, names: Sequence[str] = ()
-    ) -> None:
-        values = {'name': names, member: [0.0] * count}
-        self._template = Template.of(JOINT_STATE, values, [member])
-        self._pack = struct.Struct(f'<{count}d').pack_into
-        self.publisher = RawPublisher(node, JOINT_STATE, topic, STATE)
-
-    def publish(self, stamp: memoryview, values: Sequence[float]) -> None:
-        """Send the values as the answer to the state of a stamp."""
-        self._template.stamps[0][:] = stamp
-        self._pack(self._template.blocks[0], 0, *values)
-        self.publisher.publish(self._template.bytes())
-
-
 class ControllerNode(Node, ABC):
     """
     A controller of one vehicle.
 
-    Subscribes ``<vehicle>/odom`` and ``<vehicle>/cmd/waypoint`` (geometry_msgs/PoseStamped, frame
-    ``map`` or ``<vehicle>/odom``), publishes ``<vehicle>/cmd/thrust_stamped`` and, for a
-    controller that commands joint actuators, ``<vehicle>/cmd/joints``, both with the stamp of the
-    odometry.
+    Subscribes ``<vehicle>/odom``, ``<vehicle>/cmd/waypoint`` (geometry_msgs/PoseStamped, frame
+    ``map`` or ``<vehicle>/odom``) and ``<vehicle>/cmd_vel`` (`VelocityCommands`); publishes
+    ``<vehicle>/cmd/thrust_stamped`` and, for joint actuators, ``<vehicle>/cmd/joints``, both with
+    the stamp of the odometry.
 
     Parameters
     ----------
@@ -129,22 +109,26 @@ class ControllerNode(Node, ABC):
             turn=self.turn,
         )
         self.read_live()
-        self._create_topics(medium)
+        self._create_topics(medium, self.reach(parameters.gains(self, gains)))
         self._ending = False
         self._last_stamp_ns = -1
         self._stamp = StampBytes()
 
-    def _create_topics(self, medium: str) -> None:
+    def _create_topics(self, medium: str, reach: Reach) -> None:
         vehicle, name = self.vehicle, self.vehicle.name
         self._frames = ('', 'map', f'{name}/odom')
         self._states = StateSource(self, name, medium)
         self._waypoint = PolledSubscription(self, _POSE, f'{name}/cmd/waypoint', NEWEST)
-        self._thrusts = _Commands(
+        self.velocity = VelocityCommands(
+            self, name, reach, lambda: parameters.number(self, 'cmd_vel.timeout'), self.warn
+        )
+        self._heard = [*self._states.subscriptions, self._waypoint, *self.velocity.subscriptions]
+        self._thrusts = CommandPublisher(
             self, f'{name}/cmd/thrust_stamped', 'effort', len(vehicle.thrusters)
         )
-        self._joints: _Commands | None = None
+        self._joints: CommandPublisher | None = None
         self._connections = Connections(self, self.warn)
-        self._connections.watch([*self._states.subscriptions, self._waypoint])
+        self._connections.watch(self._heard)
         self._connections.watch([self._thrusts.publisher])
 
     def command_joints(self, names: Sequence[str]) -> None:
@@ -158,7 +142,7 @@ class ControllerNode(Node, ABC):
 
         """
         all_in_order = tuple(names) == self.vehicle.joints
-        self._joints = _Commands(
+        self._joints = CommandPublisher(
             self, f'{self.vehicle.name}/cmd/joints', 'position', len(names),
             () if all_in_order else names,
         )  # fmt: skip
@@ -195,6 +179,18 @@ class ControllerNode(Node, ABC):
     # ---- what a controller adds --------------------------------------------------------------
 
     @abstractmethod
+    def reach(self, gains: Any) -> Reach:
+        """
+        Return which velocities the controller can follow.
+
+        Parameters
+        ----------
+        gains
+            Its gains.
+
+        """
+
+    @abstractmethod
     def answer(self, state: State) -> Answer:
         """
         Return the commands that answer a state.
@@ -226,10 +222,10 @@ class ControllerNode(Node, ABC):
             f"vehicle '{self.vehicle.name}': {self.plant.mass:.2f} kg, "
             f'{len(self.vehicle.thrusters)} thrusters; waiting for {self._states.topic}'
         )
-        subscriptions = [*self._states.subscriptions, self._waypoint]
         wait_set = WaitSet(self)
         while not self._ending:
-            wait_set.wait(subscriptions, _WAIT)
+            wait_set.wait(self._heard, _WAIT)
+            self.velocity.take()
             # every state is answered, in order, so that the same states get the same answers
             for stamped in self._states.take():
                 self._on_state(stamped)
@@ -266,6 +262,7 @@ class ControllerNode(Node, ABC):
             return
         if stamp_ns < self._last_stamp_ns:
             self.plan.restart()
+            self.velocity.forget()
             self.restart()
             self.get_logger().info('time went back: starting anew')
         self._last_stamp_ns = stamp_ns
@@ -287,6 +284,7 @@ class ControllerNode(Node, ABC):
         else:
             yaw = rot.yaw_of(rot.from_quaternion(quat))
             self.plan.go_to(Waypoint(place, yaw))
+            self.velocity.forget()
             return
         self.get_logger().error(f'waypoint rejected: {fault}')
 

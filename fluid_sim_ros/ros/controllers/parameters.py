@@ -29,6 +29,10 @@ COMMON: dict[str, Declared] = {
         [], '[m, m, m, rad, s] x, y, z, yaw, hold of each waypoint, one after another; '
         'empty = hold the pose of the first odometry'
     ),
+    'cmd_vel.timeout': Declared(
+        0.5, '[s] of simulated time without a message on <v>/cmd_vel after which the velocity '
+        'asked for is 0; 0 = never', low=0, high=3600, live=True,
+    ),
     'waypoint_radius': Declared(0.25, '[m] distance at which a waypoint counts as reached', low=0),
 }  # fmt: skip
 

@@ -10,11 +10,13 @@ from fluid_sim_ros.control.fixed_wing import (
     FixedWingGains,
     FlightTarget,
 )
+from fluid_sim_ros.control.guidance.velocity import Velocity
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import HEADING, OF_FIRST
+from fluid_sim_ros.ros.controllers.velocity_commands import Reach
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
 
@@ -64,6 +66,26 @@ class PlaneController(ControllerNode):
         # one assignment, so that the loop in the other thread never sees half of a change
         self._wanted = tuple(parameters.number(self, name) for name in names)
 
+    def reach(self, gains: FixedWingGains) -> Reach:
+        """
+        Return which velocities the controller can follow.
+
+        Parameters
+        ----------
+        gains
+            Its gains.
+
+        Returns
+        -------
+        Reach
+            Any airspeed, the law's climb, and the turn of its largest bank at cruise.
+
+        """
+        gravity = self.plant.weight / self.plant.mass
+        turn = gravity * math.tan(gains.max_bank) / gains.cruise_airspeed
+        most = Velocity(math.inf, 0.0, gains.max_climb, turn)
+        return Reach(most, 1.5 * gains.max_climb / gains.balance)
+
     def restart(self) -> None:
         """Take the altitude and heading to hold from the next state."""
         self._first = None
@@ -93,6 +115,12 @@ class PlaneController(ControllerNode):
         waypoint = self.plan.target(state.time, state.position_w, rot.yaw_of(r_wb))
         if waypoint is not None:
             line, altitude, heading = waypoint.position_w, waypoint.position_w[2], waypoint.yaw
+        piloted = self.velocity.target(state)
+        if piloted is not None:
+            velocity, moving = piloted
+            # an aircraft cannot stand still: without a speed it keeps its airspeed
+            airspeed = velocity.ahead if velocity.ahead > 0 else airspeed
+            altitude, heading, line = moving.position_w[2], moving.heading, None
         target = FlightTarget(altitude, heading, airspeed, line)
         thrust, *surfaces = self._law.step(state, target)
         return Answer([thrust], [surfaces[i] for i in self._order])

@@ -3,12 +3,15 @@
 from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
+from fluid_sim_ros.control.approach import Approach
+from fluid_sim_ros.control.guidance.velocity import Velocity
 from fluid_sim_ros.control.multirotor import MultirotorController, MultirotorGains, PoseTarget
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.waypoints import Waypoint
 from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
+from fluid_sim_ros.ros.controllers.velocity_commands import Reach
 from fluid_sim_ros.ros.process.run import Executable, run_process
 
 NODE_NAME = 'quad_controller'
@@ -23,6 +26,25 @@ class QuadController(ControllerNode):
         super().__init__(NODE_NAME, DEFAULT_SCENE, MultirotorGains)
         self._law = MultirotorController(self.plant, parameters.gains(self, MultirotorGains))
         self._home: Waypoint | None = None
+
+    def reach(self, gains: MultirotorGains) -> Reach:
+        """
+        Return which velocities the controller can follow.
+
+        Parameters
+        ----------
+        gains
+            Its gains.
+
+        Returns
+        -------
+        Reach
+            Speeds of the law, and its target half as far again as it lags behind at most.
+
+        """
+        most = Velocity(gains.max_speed, gains.max_speed, gains.max_climb, gains.max_rate)
+        approach = Approach(gains.position, gains.max_speed, gains.max_acceleration)
+        return Reach(most, 1.5 * gains.max_climb / gains.position, approach.distance)
 
     def restart(self) -> None:
         """Take the place to hold from the next state."""
@@ -47,6 +69,10 @@ class QuadController(ControllerNode):
         if self._home is None:
             x, y, z = state.position_w
             self._home = Waypoint((x, y, z), yaw)
+        piloted = self.velocity.target(state)
+        if piloted is not None:
+            _, moving = piloted
+            return Answer(self._law.step(state, PoseTarget(moving.position_w, moving.heading)))
         target = self.plan.target(state.time, state.position_w, yaw) or self._home
         return Answer(self._law.step(state, PoseTarget(target.position_w, target.yaw)))
 

@@ -5,12 +5,14 @@ from collections.abc import Sequence
 
 from fluid_sim_ros.control import rotation as rot
 from fluid_sim_ros.control.axes import NAMES
+from fluid_sim_ros.control.guidance.velocity import Velocity
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController, UnderwaterGains
 from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.ros.controllers import parameters as parameters
 from fluid_sim_ros.ros.controllers.base import Answer, ControllerNode
 from fluid_sim_ros.ros.controllers.parameters import DEPTH, HEADING
+from fluid_sim_ros.ros.controllers.velocity_commands import Reach
 from fluid_sim_ros.ros.parameters.table import Declared
 from fluid_sim_ros.ros.process.run import Executable, run_process
 
@@ -48,6 +50,29 @@ class RovController(ControllerNode):
         # one assignment, so that the loop in the other thread never sees half of a change
         self._wanted = tuple(parameters.number(self, name) for name in names)
 
+    def reach(self, gains: UnderwaterGains) -> Reach:
+        """
+        Return which velocities the controller can follow.
+
+        Parameters
+        ----------
+        gains
+            Its gains.
+
+        Returns
+        -------
+        Reach
+            Speeds of the law, 0 along axes that the thrusters do not reach.
+
+        """
+        lacks = UnderwaterController(self.plant, gains).lacks
+        bounds = {
+            'fx': gains.max_speed, 'fy': gains.max_speed, 'fz': gains.max_climb,
+            'tz': gains.max_rate,
+        }  # fmt: skip
+        most = Velocity(*(0.0 if axis in lacks else bound for axis, bound in bounds.items()))
+        return Reach(most, 1.5 * gains.max_climb / gains.position)
+
     def restart(self) -> None:
         """Take the depth and heading to hold from the next state."""
         self._first = None
@@ -78,6 +103,10 @@ class RovController(ControllerNode):
         if waypoint is not None:
             place = waypoint.position_w[:2]
             depth, heading = -waypoint.position_w[2], waypoint.yaw
+        piloted = self.velocity.target(state)
+        if piloted is not None:
+            (surge, sway, _, _), moving = piloted
+            depth, heading, place = -moving.position_w[2], moving.heading, None
         target = DepthTarget(depth, heading, (surge, sway), place)
         return Answer(self._law.step(state, target))
 

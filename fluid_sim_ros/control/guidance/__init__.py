@@ -1,0 +1,1 @@
+"""What a control law is asked to hold, from what a pilot asks for."""
