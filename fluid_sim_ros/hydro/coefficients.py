@@ -58,6 +58,8 @@ class Request:
         Wall, bed, surface.
     coarse
         Most panels of the coarser mesh.
+    up
+        Which axis of the mesh becomes z, one of ``up_axis.UPS``.
 
     """
 
@@ -73,6 +75,7 @@ class Request:
     drag_coefficients: tuple[float, float, float] | None = None
     planes: list[Plane] = field(default_factory=list)
     coarse: int = COARSE
+    up: str = 'keep'
 
 
 @dataclass(frozen=True)
@@ -143,7 +146,7 @@ def coefficients_of(
     _check(request)
     if file is None:
         say('reading the mesh')
-        file = read_mesh(request.mesh, request.unit)
+        file = read_mesh(request.mesh, request.unit, request.up)
     statics = statics_of(file.solid)
     _check_density(request, statics)
     say('added mass: panels and potential')

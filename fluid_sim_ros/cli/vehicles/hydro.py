@@ -42,6 +42,10 @@ def add_parser(commands: Any, show: Show) -> None:
     hydro.add_argument(
         '--unit', metavar='UNIT', help='of the mesh: m, cm, mm, in, ft (default m, asked if odd)'
     )
+    hydro.add_argument(
+        '--up', choices=('keep', 'file', 'x', 'y', 'z'), default='keep',
+        help='axis that becomes z; file: as a GLB or DAE file states it (default: kept as it is)',
+    )  # fmt: skip
     point = ('X', 'Y', 'Z')
     hydro.add_argument(
         '--about', type=float, nargs=3, metavar=point,
@@ -83,7 +87,7 @@ def _hydro(arguments: argparse.Namespace, show: Show) -> int:
         arguments.mesh, arguments.density, arguments.viscosity, arguments.unit,
         _three(arguments.about), arguments.mass, _three(arguments.center_of_mass),
         arguments.thrust, arguments.speed, _three(arguments.drag), _planes(arguments),
-        COARSE if arguments.panels is None else arguments.panels,
+        COARSE if arguments.panels is None else arguments.panels, arguments.up,
     )  # fmt: skip
     files = None
     if arguments.report is not None:

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 _POINT = ('X', 'Y', 'Z')
 _ANSWERS = (
     'name', 'medium', 'body', 'mass', 'center_of_mass', 'inertia', 'body_density', 'even', 'unit',
-    'hull', 'fluid_density', 'buoyancy', 'thrusters', 'max_thrust', 'fixed', 'sensors', 'panels',
+    'up', 'hull', 'fluid_density', 'buoyancy', 'thrusters', 'max_thrust', 'fixed', 'sensors',
+    'panels',
 )  # fmt: skip
 
 
@@ -56,6 +57,10 @@ def add_parser(commands: Any, show: Show) -> None:
     )
     parser.add_argument('--even', action='store_true', help='the mass is even over the hull')
     parser.add_argument('--unit', metavar='UNIT', help='of meshes: m, cm, mm, in, ft (default m)')
+    parser.add_argument(
+        '--up', choices=('file', 'x', 'y', 'z'),
+        help='axis of a mesh that becomes z (default: as a GLB or DAE file states it)',
+    )  # fmt: skip
     parser.add_argument('--hull', metavar='WHICH', help='collision, visual, or a mesh file')
     parser.add_argument('--fluid-density', type=float, metavar='RHO', help='[kg/m^3]')
     parser.add_argument(

@@ -1,9 +1,9 @@
 """
-The process that reads one mesh file: ``python -m ... FILE SCALE RESULT [as_it_is]``.
+The process that reads one mesh file: ``python -m ... FILE SCALE UP RESULT [as_it_is]``.
 
 It limits its own memory and processor time, writes the repaired solid to RESULT (npz), or with
 ``as_it_is`` the triangles, and one line of JSON to standard output. SCALE 0: the unit that a DAE
-file states, else metres.
+file states, else metres. UP: one of ``up_axis.UPS``.
 """
 
 import json
@@ -19,6 +19,8 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.hydro.meshes.reading import MEMORY, MOST_TRIANGLES, TIME_LIMIT
 from fluid_sim_ros.hydro.meshes.repair import Solid, repaired
 from fluid_sim_ros.hydro.meshes.surface import Surface
+from fluid_sim_ros.hydro.meshes.up_axis import turned_up
+from fluid_sim_ros.physics.arrays import Array
 
 #: Packages without which some formats are not read; trimesh may do without any other.
 _NEEDED = ('trimesh', 'collada', 'lxml')
@@ -36,11 +38,15 @@ def main() -> int:
         0, also where the file was refused: the line says why.
 
     """
-    path, scale, result = Path(sys.argv[1]), float(sys.argv[2]), Path(sys.argv[3])
+    path, scale, up, result = (
+        Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3], Path(sys.argv[4])
+    )  # fmt: skip
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (int(TIME_LIMIT), int(TIME_LIMIT)))
     try:
-        head = (_read_as_it_is if sys.argv[4:] else _read)(path, scale, result)
+        rotation, words = turned_up(path, up)
+        head = (_read_as_it_is if sys.argv[5:] else _read)(path, scale, rotation, result)
+        head['axes'] = words
     except ConfigError as error:
         head = {'error': str(error)}
     except MemoryError:
@@ -111,15 +117,22 @@ def solid_of_file(path: Path, scale: float) -> tuple[Solid, int]:
     return repaired(surface), len(surface.faces)
 
 
-def _read_as_it_is(path: Path, scale: float, result: Path) -> dict[str, Any]:
+def _turned(surface: Surface, rotation: Array) -> Surface:
+    if np.array_equal(rotation, np.eye(3)):
+        return surface
+    return Surface(surface.vertices @ rotation.T, surface.faces)
+
+
+def _read_as_it_is(path: Path, scale: float, rotation: Array, result: Path) -> dict[str, Any]:
     surface, unit = surface_of_file(path, scale)
+    surface = _turned(surface, rotation)
     np.savez(result, vertices=surface.vertices, faces=surface.faces)
     return {'triangles': len(surface.faces), 'unit': unit}
 
 
-def _read(path: Path, scale: float, result: Path) -> dict[str, Any]:
+def _read(path: Path, scale: float, rotation: Array, result: Path) -> dict[str, Any]:
     surface, unit = surface_of_file(path, scale)
-    solid = repaired(surface)
+    solid = repaired(_turned(surface, rotation))
     frame = solid.frame
     np.savez(
         result, vertices=solid.surface.vertices, faces=solid.surface.faces, origin=frame.origin,

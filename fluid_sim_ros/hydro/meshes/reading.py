@@ -61,7 +61,7 @@ class MeshFile:
     repairs: tuple[str, ...]
 
 
-def read_mesh(path: Path, unit: str | None = None) -> MeshFile:
+def read_mesh(path: Path, unit: str | None = None, up: str = 'keep') -> MeshFile:
     """
     Return the closed solid of a mesh file.
 
@@ -72,6 +72,9 @@ def read_mesh(path: Path, unit: str | None = None) -> MeshFile:
     unit
         Of the file's numbers, one of `UNITS`. None: metres, and a size that no vehicle has is
         refused with the question for the unit.
+    up
+        Which axis of the file becomes z, one of ``up_axis.UPS``: the axes as they are, as the
+        file states it, or the one named.
 
     Returns
     -------
@@ -90,18 +93,19 @@ def read_mesh(path: Path, unit: str | None = None) -> MeshFile:
     _check_file(path)
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / 'solid.npz'
-        head = _in_a_process(path, UNITS[unit] if unit else 0.0, result)
+        head = _in_a_process(path, UNITS[unit] if unit else 0.0, up, result)
         with np.load(result) as arrays:
             surface = Surface(arrays['vertices'], arrays['faces'])
             frame = Frame(arrays['origin'], arrays['rotation'], float(arrays['length']))
-    solid = Solid(surface, frame, tuple(head['repairs']))
+    said = (*head['repairs'], *([head['axes']] if head['axes'] else []))
+    solid = Solid(surface, frame, said)
     if unit is None:
         _check_size(path, solid.in_mesh_axes().size())
     taken = unit or {1.0: 'm'}.get(head['unit'], f'units of {head["unit"]:g} m, as the file says')
     return MeshFile(path, solid, int(head['triangles']), taken, solid.repairs)
 
 
-def read_triangles(path: Path, unit: str | None = None) -> Surface:
+def read_triangles(path: Path, unit: str | None = None, up: str = 'keep') -> Surface:
     """
     Return the triangles of a mesh file as they are, for looks: open, crossing or inside out.
 
@@ -111,6 +115,8 @@ def read_triangles(path: Path, unit: str | None = None) -> Surface:
         As of `read_mesh`.
     unit
         As of `read_mesh`, and no size is asked about.
+    up
+        As of `read_mesh`.
 
     Returns
     -------
@@ -128,7 +134,7 @@ def read_triangles(path: Path, unit: str | None = None) -> Surface:
     _check_file(path)
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / 'triangles.npz'
-        _in_a_process(path, UNITS[unit] if unit else 0.0, result, 'as_it_is')
+        _in_a_process(path, UNITS[unit] if unit else 0.0, up, result, 'as_it_is')
         with np.load(result) as arrays:
             return Surface(arrays['vertices'], arrays['faces'])
 
@@ -172,12 +178,12 @@ def _check_size(path: Path, size: Array) -> None:
         )
 
 
-def _in_a_process(path: Path, scale: float, result: Path, *mode: str) -> dict[str, Any]:
+def _in_a_process(path: Path, scale: float, up: str, result: Path, *mode: str) -> dict[str, Any]:
     """Let the file be read and repaired; return what was said about it."""
     from fluid_sim_ros.hydro.meshes import reader_process
 
-    command = [sys.executable, '-m', reader_process.__name__, str(path), repr(scale), str(result),
-               *mode]  # fmt: skip
+    command = [sys.executable, '-m', reader_process.__name__, str(path), repr(scale), up,
+               str(result), *mode]  # fmt: skip
     # one thread: each reserves memory, and none is needed
     environment = os.environ | {'OMP_NUM_THREADS': '1', 'OPENBLAS_NUM_THREADS': '1'}
     try:

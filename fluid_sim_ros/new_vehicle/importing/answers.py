@@ -82,7 +82,7 @@ class Answers(Strict):
 
     ``even``: the mass is spread evenly over the hull. ``buoyancy``: ``hull``, or the net force
     upward under water [N]. ``hull``: ``collision``, ``visual`` or a mesh file. ``panels``: of the
-    coarser mesh for the added mass, at most.
+    coarser mesh for the added mass, at most. ``up``: axis of a mesh that becomes z.
     """
 
     name: Name | None = None
@@ -94,6 +94,7 @@ class Answers(Strict):
     body_density: Positive | None = None
     even: bool = False
     unit: Literal[tuple(UNITS)] | None = None  # type: ignore[valid-type]
+    up: Literal['file', 'x', 'y', 'z'] | None = None
     hull: str | None = None
     fluid_density: Positive | None = None
     panels: int | None = None

@@ -56,9 +56,10 @@ def hull_of(skeleton: Skeleton, answers: Answers) -> Hull | None:
     """
     chosen = answers.hull
     if chosen is None and skeleton.source.hull is not None:
-        return _read(skeleton.source.hull, answers.unit)
+        hull = _read(skeleton.source.hull, answers.unit, answers.up or 'file')
+        return _told(skeleton, hull)
     if chosen not in (None, 'collision', 'visual'):
-        return _read(Path(str(chosen)), answers.unit)
+        return _told(skeleton, _read(Path(str(chosen)), answers.unit))
     found: dict[str, Hull] = {}
     faults: dict[str, ConfigError] = {}
     for kind in ('collision', 'visual') if chosen is None else (chosen,):
@@ -126,9 +127,19 @@ def hydro_of(
     return coefficients_of(request, say, hull.file)
 
 
-def _read(path: Path, unit: str | None) -> Hull:
-    file = read_mesh(path, unit)
+def _read(path: Path, unit: str | None, up: str = 'keep') -> Hull:
+    file = read_mesh(path, unit, up)
     return Hull(file, statics_of(file.solid))
+
+
+def _told(skeleton: Skeleton, hull: Hull) -> Hull:
+    """Say what was repaired, turned or scaled in a mesh file."""
+    file = hull.file
+    said = [f'in {file.unit}'] if file.unit != 'm' else []
+    said += file.repairs
+    if said:
+        skeleton.said.append(f'{file.path.name}: {"; ".join(said)}')
+    return hull
 
 
 def _surface_of(skeleton: Skeleton, *, collides: bool) -> Surface | None:

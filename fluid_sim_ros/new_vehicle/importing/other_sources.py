@@ -15,7 +15,9 @@ from fluid_sim_ros.new_vehicle.importing.xml_source import expand_xacro, read_xm
 _KINDS = 'a URDF (.urdf, .xacro), an MJCF model (.xml) or a mesh'
 
 
-def read_source(path: Path, packages: list[Path], unit: str | None, body: str | None) -> Source:
+def read_source(
+    path: Path, packages: list[Path], unit: str | None, body: str | None, up: str | None = None
+) -> Source:
     """
     Return a file that is imported, by its kind.
 
@@ -29,6 +31,8 @@ def read_source(path: Path, packages: list[Path], unit: str | None, body: str | 
         Of mesh files' numbers; None: metres.
     body
         Base body of an MJCF model with several; None: the only one.
+    up
+        Of a mesh: the axis that becomes z, one of ``up_axis.UPS``; None: as the file states it.
 
     Returns
     -------
@@ -46,7 +50,7 @@ def read_source(path: Path, packages: list[Path], unit: str | None, body: str | 
         raise ConfigError(f'--package-path {missing[0]}: no such folder')
     kind = path.suffix.lower().lstrip('.')
     if kind in FORMATS:
-        return read_mesh_source(path, unit)
+        return read_mesh_source(path, unit, up)
     if kind not in ('urdf', 'xacro', 'xml', 'mjcf'):
         raise ConfigError(
             f"{path}: '{path.suffix}' is not imported; allowed: {_KINDS} ({listed(FORMATS)})"
@@ -61,9 +65,9 @@ def read_source(path: Path, packages: list[Path], unit: str | None, body: str | 
     raise ConfigError(f'{path}: <{root.tag}> is neither <robot> (URDF) nor <mujoco> (MJCF)')
 
 
-def read_mesh_source(path: Path, unit: str | None) -> Source:
+def read_mesh_source(path: Path, unit: str | None, up: str | None = None) -> Source:
     """
-    Return a mesh as a vehicle of one body, whose axes and origin are those of the mesh.
+    Return a mesh as a vehicle of one body, with its origin and its axes, turned so that z is up.
 
     Parameters
     ----------
@@ -71,6 +75,8 @@ def read_mesh_source(path: Path, unit: str | None) -> Source:
         Of the mesh.
     unit
         Of its numbers; None: metres.
+    up
+        As of `read_source`.
 
     Returns
     -------
@@ -91,7 +97,7 @@ def read_mesh_source(path: Path, unit: str | None) -> Source:
         name='hull', type=mujoco.mjtGeom.mjGEOM_MESH, meshname='hull_mesh',
         rgba=[0.3, 0.45, 0.7, 1],
     )  # fmt: skip
-    assets = {file: stl_bytes(read_triangles(path, unit))}
+    assets = {file: stl_bytes(read_triangles(path, unit, up or 'file'))}
     spec.assets = assets
     return Source(path, name, spec, name, assets, hull=path)
 

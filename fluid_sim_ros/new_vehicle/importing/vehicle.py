@@ -95,7 +95,7 @@ def import_vehicle(
 
     """
     say(f'reading {path.name}')
-    source = read_source(path, packages, answers.unit, answers.body)
+    source = read_source(path, packages, answers.unit, answers.body, answers.up)
     if answers.name is not None:
         source.name = answers.name
     skeleton = skeleton_of(source, answers)
