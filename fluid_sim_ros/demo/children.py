@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.mavlink.program.family import die_with_parent
 
 #: How long a child may take to end after SIGINT, and again after SIGTERM [s].
 _GRACE = 5.0
@@ -17,7 +18,7 @@ _TAIL = 8
 
 class Child:
     """
-    A Python module of this package that runs as a process.
+    A Python module of this package that runs as a process, and no longer than this one.
 
     Parameters
     ----------
@@ -49,6 +50,7 @@ class Child:
                 [sys.executable, '-m', module, *arguments],
                 stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
                 env={**os.environ, 'PYTHONUNBUFFERED': '1', **environment},
+                preexec_fn=die_with_parent,
             )  # fmt: skip
 
     @property
