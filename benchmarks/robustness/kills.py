@@ -3,8 +3,9 @@ What is left of programs that are ended by SIGINT, SIGTERM or SIGKILL at random 
 
 Each is started, and ended at a moment between its first line and the end that it would have had
 by itself: while it loads, in flight, while it ends. Wrong is a traceback, another exit code than
-that stated, a process that stays behind, an end that takes longer than 10 s, a log that has a
-fault, or more than 1 s of a flight that is lost.
+that stated, a process that stays behind, an end that takes longer than 30 s on a busy machine, a
+log that has a fault, or more than 1 s of a flight that is lost. SIGINT goes to the whole process
+group, as from a terminal.
 """
 
 import json

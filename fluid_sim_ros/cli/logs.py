@@ -149,7 +149,8 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
 
 def _render(arguments: argparse.Namespace, show: Show) -> int:
     # before MuJoCo is imported: no display is needed
-    os.environ.setdefault('MUJOCO_GL', 'egl')
+    if os.environ.get('MUJOCO_GL', 'disable') == 'disable':
+        os.environ['MUJOCO_GL'] = 'egl'
     from fluid_sim_ros.recording.pictures.render import FilmOptions, render
     from fluid_sim_ros.recording.reader import open_log
 

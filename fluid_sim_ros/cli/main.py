@@ -8,6 +8,7 @@ SIGTERM).
 """
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -53,6 +54,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     if argv is None:
         begin('fluid_sim')
+        # MuJoCo would look for a display as it is imported, in a process of its own: slow, and a
+        # traceback on Ctrl-C. What makes pictures asks for its renderer.
+        os.environ.setdefault('MUJOCO_GL', 'disable')
     words = sys.argv[1:] if argv is None else list(argv)
     parser = _build_parser()
     completion.complete(parser)

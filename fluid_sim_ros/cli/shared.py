@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.errors import MOST_LINE, ConfigError, needed_for, printable
+from fluid_sim_ros.interruption import owns
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -120,6 +121,7 @@ def status_line() -> 'Progress':
 
     from fluid_sim_ros.output.plain_console import PlainConsole
 
+    owns()  # a line without a cursor
     console = PlainConsole(stderr=True)
     text = TextColumn(
         '{task.description}', markup=False, table_column=Column(no_wrap=True, overflow='ellipsis')
@@ -156,6 +158,7 @@ def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
 
     from fluid_sim_ros.output.plain_console import PlainConsole
 
+    owns()
     console = PlainConsole(stderr=True)
     name = TextColumn('{task.description}', markup=False)
     return Progress(
@@ -269,6 +272,7 @@ def made_folder(folder: Path, option: str = '--out') -> Iterator[Path]:
         If it cannot be made.
 
     """
+    owns()
     new = [each for each in (folder, *folder.parents) if not each.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)

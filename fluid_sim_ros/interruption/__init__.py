@@ -5,6 +5,7 @@ A process is in one of these states; the first signal does what the state says:
 
 * loading: nothing is there that has to be ended, so the process ends at once;
 * working: ``Interrupted`` is raised, which ends what is under way through its ``finally`` clauses;
+  behind an import, or at once where nothing was made yet that has to be ended (``owns``);
 * in ``held``: it is raised when the block ends;
 * in ``stopped_by_signals``: a loop ends at its next boundary, and its result counts;
 * settled: the result is out, so nothing happens.
@@ -26,11 +27,12 @@ from fluid_sim_ros.interruption.program import (
     held,
     interrupted_by,
     leave,
+    owns,
     settle,
     stopped_by_signals,
 )
 
 __all__ = [
     'NUMBERS', 'SAME_WISH', 'Interrupted', 'begin', 'begun', 'end_at_once', 'exit_code', 'held',
-    'interrupted_by', 'leave', 'settle', 'stopped_by_signals',
+    'interrupted_by', 'leave', 'owns', 'settle', 'stopped_by_signals',
 ]  # fmt: skip

@@ -15,8 +15,9 @@ SAME_WISH = 2.0
 _PAUSE = 0.02
 #: Longest time from ``Interrupted`` to the end of the process [s].
 _LONGEST_END = 10.0
-#: Python calls these from where an exception is shown and forgotten, or a child would be lost.
-_DELICATE = ('__del__', 'Popen.__init__')
+#: In these an exception is shown and forgotten, a child is lost, or a module stays half made.
+_DELICATE = ('__del__', 'Popen.__init__', '_find_and_load')
+_IMPORT = ('_find_and_load',)
 _SHOW_CURSOR = b'\x1b[?25h'
 
 
@@ -98,6 +99,8 @@ class Signals:
 
     Attributes
     ----------
+    owning
+        Whether something has been made that its maker ends: then imports are waited for, too.
     number
         Of the first signal, or 0.
     waits
@@ -107,6 +110,7 @@ class Signals:
 
     def __init__(self, program: str, loading: bool = False) -> None:
         self.program, self.loading = program, loading
+        self.owning = False
         self.number = 0
         self.settled = False
         self.loops: list[Interruption] = []
@@ -115,6 +119,11 @@ class Signals:
         self._since = 0.0
         self._before = {number: signal.getsignal(number) for number in NUMBERS}
         self.take()
+
+    @property
+    def interrupted(self) -> str:
+        """What is said of an end in order."""
+        return f'{self.program}: interrupted'
 
     def take(self) -> None:
         """Take the signals, also from a library that has taken them for itself."""
@@ -146,7 +155,9 @@ class Signals:
         if self.loops:
             self.waits = False
             self.loops[-1].came(self.number)
-        elif _delicate(frame):
+        elif _is_in(frame, _IMPORT) and not self.owning:
+            end_at_once(self.interrupted, exit_code(self.number))
+        elif _is_in(frame, _DELICATE):
             self.again()
         else:
             self.waits = False
@@ -162,7 +173,7 @@ class Signals:
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if self.loading:
-            end_at_once(f'{self.program}: interrupted', exit_code(number))
+            end_at_once(self.interrupted, exit_code(number))
         now = time.monotonic()
         if self.number:
             if now - self._since > SAME_WISH:
@@ -210,13 +221,11 @@ def end_at_once(line: str, code: int) -> NoReturn:
         os._exit(code)
 
 
-def _delicate(frame: FrameType | None) -> bool:
-    """Return whether an exception here would be lost, or leave something half made."""
+def _is_in(frame: FrameType | None, names: tuple[str, ...]) -> bool:
+    """Return whether a function of these names, or qualified names, is being called."""
     while frame is not None:
         code = frame.f_code
-        if code.co_filename.startswith('<frozen importlib') or code.co_qualname in _DELICATE:
-            return True
-        if code.co_name in _DELICATE:
+        if code.co_name in names or code.co_qualname in names:
             return True
         frame = frame.f_back
     return False

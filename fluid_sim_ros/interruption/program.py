@@ -54,6 +54,12 @@ def begun() -> None:
         _present.loading = False
 
 
+def owns() -> None:
+    """Note that something was made that its maker ends, such as a temporary file."""
+    if _present is not None:
+        _present.owning = True
+
+
 def interrupted_by() -> int:
     """Return the exit code of a program that a signal has interrupted; 0 where none has come."""
     return exit_code(_present.number) if _present is not None and _present.number else 0
@@ -111,6 +117,7 @@ def held(from_library: bool = False) -> Iterator[None]:
         yield
         return
     present.holds += 1
+    present.owning = True
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, NUMBERS if from_library else ())
     try:
         yield

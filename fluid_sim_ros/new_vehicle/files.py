@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
+from fluid_sim_ros.interruption import owns
 from fluid_sim_ros.new_vehicle.design import GRAVITY, Design, check_body, hover_thrusts
 from fluid_sim_ros.new_vehicle.fins import JOINTS
 from fluid_sim_ros.new_vehicle.layout import Medium, thrusters_of
@@ -149,6 +150,7 @@ def write_vehicle(design: Design, folder: Path, *, overwrite: bool = False) -> N
             raise ConfigError(
                 f'{folder / name}: exists; give another --out, or --force to replace it'
             )
+    owns()
     with tempfile.TemporaryDirectory() as trial:  # what does not load is not left behind
         drift = drift_of(_write(texts, Path(trial))[0])
     paths = _write(texts, folder)

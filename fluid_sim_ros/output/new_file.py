@@ -7,6 +7,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError, printable
+from fluid_sim_ros.interruption import owns
 
 #: Longest name of a file, without its ending [characters].
 _LONGEST = 150
@@ -37,6 +38,7 @@ def new_file(path: Path) -> Iterator[Path]:
         If a link stands there, or the file cannot be made.
 
     """
+    owns()
     shown = printable(str(path), 1000)
     if path.is_symlink():
         raise ConfigError(f'{shown}: a link stands there; remove it, or choose another place')

@@ -4,6 +4,7 @@ The executables of the package, with as few imports as can be.
 Loading a node takes a second or more. A Ctrl-C in that time ends the process as quietly as later.
 """
 
+import os
 import sys
 from importlib import import_module
 from typing import NoReturn
@@ -39,4 +40,7 @@ def plane_controller() -> None:
 
 def _run(module: str) -> NoReturn:
     end_quietly()
+    # MuJoCo would look for a display as it is imported, in a process of its own: slow, and a
+    # traceback on Ctrl-C
+    os.environ.setdefault('MUJOCO_GL', 'disable')
     leave(import_module(module).main(sys.argv))

@@ -26,8 +26,8 @@ NODE = (
     'from fluid_sim_ros.ros.process.signals import end_quietly; end_quietly(); '
     'os.write(1, b"loading\\n"); fluid_sim_node()'
 )
-#: Longest time that a program, and all that it has started, may take to end [s].
-PATIENCE = 10.0
+#: Longest time that a program, and all that it has started, may take to end on a busy machine [s].
+PATIENCE = 30.0
 #: What a kill -9 may cost [s].
 MOST_LOST = 1.0
 _MARK = 'FLUID_SIM_TEST_KILL'
@@ -112,7 +112,7 @@ class Killer:
         kill = Kill(program, number, after)
         process = subprocess.Popen(
             self.command(program, place), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-            cwd=self._folder, env=os.environ | {_MARK: mark},
+            cwd=self._folder, env=os.environ | {_MARK: mark}, process_group=0,
         )  # fmt: skip
         if after >= 0:
             assert process.stdout.readline() == b'loading\n'
@@ -120,7 +120,10 @@ class Killer:
         ended = process.poll() is not None
         began = place.exists()
         at_ns, at = time.time_ns(), time.monotonic()
-        process.send_signal(number)
+        if number == signal.SIGINT and not ended:  # as a terminal does
+            os.killpg(process.pid, number)
+        else:
+            process.send_signal(number)
         try:
             _, errors = process.communicate(timeout=PATIENCE)
         except subprocess.TimeoutExpired:

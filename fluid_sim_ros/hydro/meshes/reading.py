@@ -20,6 +20,7 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.hydro.meshes.frame import Frame
 from fluid_sim_ros.hydro.meshes.repair import Solid
 from fluid_sim_ros.hydro.meshes.surface import Surface
+from fluid_sim_ros.interruption import owns
 from fluid_sim_ros.physics.arrays import Array
 
 FORMATS = ('stl', 'obj', 'ply', 'glb', 'gltf', 'dae', 'off')
@@ -91,6 +92,7 @@ def read_mesh(path: Path, unit: str | None = None, up: str = 'keep') -> MeshFile
     if unit is not None and unit not in UNITS:
         raise ConfigError(f"unit '{unit}': unknown; allowed: {listed(UNITS)}")
     _check_file(path)
+    owns()
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / 'solid.npz'
         head = _in_a_process(path, UNITS[unit] if unit else 0.0, up, result)
@@ -132,6 +134,7 @@ def read_triangles(path: Path, unit: str | None = None, up: str = 'keep') -> Sur
     if unit is not None and unit not in UNITS:
         raise ConfigError(f"unit '{unit}': unknown; allowed: {listed(UNITS)}")
     _check_file(path)
+    owns()
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / 'triangles.npz'
         _in_a_process(path, UNITS[unit] if unit else 0.0, up, result, 'as_it_is')

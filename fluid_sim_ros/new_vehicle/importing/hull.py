@@ -14,6 +14,7 @@ from fluid_sim_ros.hydro.meshes import shapes
 from fluid_sim_ros.hydro.meshes.reading import MeshFile, read_mesh
 from fluid_sim_ros.hydro.meshes.surface import Surface
 from fluid_sim_ros.hydro.statics import Statics, statics_of
+from fluid_sim_ros.interruption import owns
 from fluid_sim_ros.new_vehicle.importing.answers import Answers
 from fluid_sim_ros.new_vehicle.importing.skeleton import Skeleton
 from fluid_sim_ros.physics.arrays import Array
@@ -67,6 +68,7 @@ def hull_of(skeleton: Skeleton, answers: Answers) -> Hull | None:
         if surface is None:
             continue
         try:
+            owns()
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder) / f'{kind}.obj'
                 shapes.write_obj(surface, path)

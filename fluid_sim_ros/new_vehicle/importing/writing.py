@@ -9,6 +9,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.hydro.report import write_report
+from fluid_sim_ros.interruption import owns
 from fluid_sim_ros.new_vehicle.files import TRIAL, drift_of
 from fluid_sim_ros.new_vehicle.importing.document import ASSETS
 from fluid_sim_ros.new_vehicle.importing.report import report_of
@@ -76,6 +77,7 @@ def write_imported(vehicle: Imported, folder: Path, *, overwrite: bool = False) 
             raise ConfigError(
                 f'{folder / file}: exists; give another --out, or --force to replace it'
             )
+    owns()
     with tempfile.TemporaryDirectory() as trial:  # what does not load is not left behind
         drift = drift_of(_write(contents, Path(trial))[0])
     paths = _write(contents, folder)
