@@ -8,6 +8,7 @@ SIGTERM).
 """
 
 import argparse
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -82,6 +83,10 @@ def _run(arguments: argparse.Namespace, rest: Sequence[str]) -> int:
         return _fail(error, DIVERGED)
     except FluidSimError as error:
         return _fail(error, WRONG_INPUT)
+    except OSError as error:
+        if error.errno not in (errno.EMFILE, errno.ENFILE):
+            raise
+        return _fail(f'{error.strerror}; raise the limit, such as: ulimit -n 1024', WRONG_INPUT)
     return code
 
 

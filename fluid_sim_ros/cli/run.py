@@ -138,7 +138,9 @@ def run_scene(
                 pacing = flight.pacing
             if hold:
                 sinks.append(Hold(simulation, log))
-            runner = Runner(simulation, NoSource(), sinks, pacing)
+            runner = Runner(
+                simulation, NoSource(), sinks, pacing, housekeeping=_recording_watch(log, say)
+            )
             connected = nullcontext() if flight is None else flight.of(runner)
             interruption.stops(runner.stop)
             with connected:
@@ -183,6 +185,21 @@ def _warn(line: str, say: Callable[[str], None], log: 'RecordingSink | None') ->
     say(f'warning: {line}')
     if log is not None:
         log.event(warning=line)
+
+
+def _recording_watch(
+    log: 'RecordingSink | None', say: Callable[[str], None]
+) -> Callable[[], None]:
+    """Return what says at once, and once, that the recording has stopped; the flight goes on."""
+    said = False
+
+    def look() -> None:
+        nonlocal said
+        if log is not None and log.recorder.fault and not said:
+            said = True
+            say(f'warning: {log.recorder.fault}; going on without')
+
+    return look
 
 
 @contextmanager

@@ -70,8 +70,12 @@ class Recorder:
         self.fault = ''
         self.written = self.dropped = 0
         self.paths: list[Path] = []
-        start = self._start()
         self.writer = WriterProcess(int(options.queue_mib * (1 << 20)), options.policy == 'block')
+        try:
+            start = self._start()
+        except FluidSimError:
+            self.writer.close()
+            raise
         self._send(wire.START, len(start), [start])
 
     # ---- what is recorded ------------------------------------------------------------------
@@ -218,9 +222,9 @@ class Recorder:
         self._send(wire.END, 0, [])
         try:
             start = self._start()
-        except FluidSimError as error:
+        except (FluidSimError, OSError) as error:  # such as a full disk, or too few file handles
             self.close()
-            self.fault = f'recording stopped: {error}'
+            self.fault = self.fault or f'recording stopped: {error}'
             return
         self._send(wire.START, len(start), [start])
 

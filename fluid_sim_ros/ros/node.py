@@ -48,7 +48,7 @@ class FluidSimNode(LifecycleNode):
         self._active = False
         self._ending = False
         self._report = ThrottledLog(self.get_logger().warning)
-        self.configure_error = ''
+        self.configure_error = self.lost = ''
         self.notes: list[str] = []
         self.add_on_set_parameters_callback(self._judge_change)
         self.add_post_set_parameters_callback(self._take_change)
@@ -233,6 +233,7 @@ class FluidSimNode(LifecycleNode):
         if session is not None:
             session.runner.stop()
             session.destroy()
+            self.lost = self.lost or session.lost
             # its parts know each other: without this tens of megabytes each stay for some cycles
             del session
             gc.collect()

@@ -44,6 +44,11 @@ class Session:
     notes
         What the start found that may not be meant, for diagnostics.
 
+    Attributes
+    ----------
+    diverged, lost
+        Why it stands still, and why its recording has stopped; or empty.
+
     Raises
     ------
     FluidSimError
@@ -63,7 +68,7 @@ class Session:
         self._node = node
         self._settings = settings
         self._report = report
-        self.diverged = ''
+        self.diverged = self.lost = ''
         run = RunSettings.checked(
             "parameter '{}'",
             **{key: settings[key] or None for key in ('timestep', 'integrator', 'fluid')},
@@ -114,8 +119,9 @@ class Session:
         self._autopilots.close()
         if self.tap is not None:
             self.tap.close()
-            if self.tap.fault:
-                self._report('recording', self.tap.fault)
+            if self.tap.fault and not self.lost:
+                self.lost = self.tap.fault
+                self._report('recording', self.lost)
         self.inputs.destroy()
         self.outputs.destroy()
         self._diagnostics.destroy()
@@ -150,10 +156,12 @@ class Session:
         now = time.monotonic()
         if self.tap is not None:
             self.tap.flush()
+            if self.tap.fault and not self.lost:
+                self.lost = self.tap.fault
+                self._report('recording', f'{self.lost}; going on without')
+                self._diagnosed_at = 0.0  # this cannot wait for the next turn
         if now - self._diagnosed_at >= _DIAGNOSTICS_PERIOD:
             self._diagnosed_at = now
-            if self.tap is not None and self.tap.fault:
-                self._report('recording', f'{self.tap.fault}; going on without')
             self._diagnostics.publish(self.runner, self.diverged)
         runner = self.runner
         stands = bool(runner.paused or runner.stopped or self.diverged)

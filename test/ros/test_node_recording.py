@@ -1,7 +1,11 @@
 """The node records what it published and received, over real DDS."""
 
+import re
 import resource
+import shutil
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -117,6 +121,37 @@ def test_a_full_disk_is_reported_and_the_node_flies_on(tmp_path):
             process.signal(signal.SIGINT)
             assert process.wait() == 0
     assert 'going on without' in process.output
+
+
+def test_a_folder_that_is_deleted_is_reported_and_told_by_the_exit_code(tmp_path):
+    folder = tmp_path / 'logs'
+    with Peer() as peer:
+        peer.watch_diagnostics()
+        with node(scene='rov', record__path=folder / 'a.mcap', duration=4.0) as process:
+            log = folder / 'a.mcap'
+            wait_until(lambda: log.exists() and log.stat().st_size > 1000, 'a recording')
+            shutil.rmtree(folder)
+            wait_until(lambda: peer.diagnostics['recording'][0] == 2, 'the report')
+            step = int(peer.diagnostics['loop'][2]['step'])
+            wait_until(lambda: int(peer.diagnostics['loop'][2]['step']) > step, 'more steps')
+            assert 'its file was deleted' in peer.diagnostics['recording'][1]
+            assert process.wait() == 1  # it has ended by itself, at the end of its duration
+    assert process.output.count('its file was deleted; going on without') == 1
+
+
+def test_too_few_file_handles_for_a_node_are_one_line():
+    code = (
+        'import resource; resource.setrlimit(resource.RLIMIT_NOFILE, (30, 30)); '
+        'from fluid_sim_ros.ros.executables import fluid_sim_node; fluid_sim_node()'
+    )
+    done = subprocess.run(
+        [sys.executable, '-c', code], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2 and not done.stdout
+    assert re.fullmatch(
+        r'fluid_sim_node: error: this process may open \d+ more files, and needs 40; '
+        r'raise the limit, such as: ulimit -n 1024\n', done.stderr,
+    )  # fmt: skip
 
 
 def writer_of(process):

@@ -3,12 +3,14 @@ The process that writes a log: frames of ``wire`` in on standard input, an MCAP 
 
 It ends with its input, so a simulation that is killed still leaves a complete file. Chunks are
 closed at 1 MiB, and after a wall time are brought to the disk: a crash of the machine costs no
-more than that. A disk that is full ends it with one JSON line on standard output; the file is cut
-back to its last whole chunk.
+more than that. A disk that is full, a quota, or a file that somebody has deleted ends it with one
+JSON line on standard output; the file is cut back to its last whole chunk. A file that was moved
+is written to its end where it is.
 """
 
 import base64
 import contextlib
+import errno
 import json
 import os
 import select
@@ -17,6 +19,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.recording.writing import rosbag2, wire
 from fluid_sim_ros.recording.writing.mcap_file import McapFile
 
@@ -99,6 +102,8 @@ class LogFile:
         self._sync()
 
     def _sync(self) -> None:
+        if not os.fstat(self._stream.fileno()).st_nlink:
+            raise FileNotFoundError(errno.ENOENT, 'its file was deleted')
         self._stream.flush()
         os.fdatasync(self._stream.fileno())
         self.whole = self._stream.tell()
@@ -115,16 +120,22 @@ class LogFile:
 
         """
         self._file.finish()
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
-        size = self._stream.tell()
+        self._sync()
+        size, path = self._stream.tell(), self._place()
         self._stream.close()
         counts = list(self._file.counts.values())
         if self._bag:
             rosbag2.write_metadata(
-                self._path, self._channels, counts, self._file.first_ns, self._file.last_ns
+                path, self._channels, counts, self._file.first_ns, self._file.last_ns
             )
-        return {'path': str(self._path), 'messages': sum(counts), 'bytes': size}
+        return {'path': str(path), 'messages': sum(counts), 'bytes': size}
+
+    def _place(self) -> Path:
+        """Return where the file is, also when its folder was moved."""
+        try:
+            return Path(f'/proc/self/fd/{self._stream.fileno()}').readlink()
+        except OSError:  # not Linux
+            return self._path
 
     def cut(self) -> None:
         """Cut the file back to its last whole chunk, after a failed write."""
@@ -147,10 +158,13 @@ def frames(deadline: Any) -> Iterator[tuple[bytes, bytes]]:
 
     """
     buffer, begin, end = memoryview(bytearray(_READ_SIZE)), 0, 0  # what was read and not returned
+    arrivals = select.poll()
+    arrivals.register(0, select.POLLIN)
     while True:
         due = deadline()
         timeout = None if due is None else max(0.0, due - time.monotonic())
-        if not select.select([0], [], [], timeout)[0]:
+        # poll takes any file number, select those below 1024 only
+        if not arrivals.poll(None if timeout is None else 1e3 * timeout):
             yield b'', b''
             continue
         got = os.readv(0, [buffer[end:]])
@@ -189,8 +203,8 @@ class Server:
             for kind, payload in frames(self._deadline):
                 self._take(kind, payload)
             self._take(wire.END, b'')
-        except OSError as error:
-            _say({'fault': error.strerror})
+        except (OSError, FluidSimError) as error:
+            _say({'fault': error.strerror if isinstance(error, OSError) else str(error)})
             if self._log is not None:
                 self._log.cut()
             os._exit(1)  # a buffered stream would try, and fail, once more

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Sequence
 from typing import IO
 
+from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.recording.writing import wire
 
 #: Size asked of the pipe [bytes]; Linux grants 1 MiB without privilege.
@@ -41,6 +42,11 @@ class WriterProcess:
     pid
         Number of the process.
 
+    Raises
+    ------
+    ConfigError
+        If the process cannot be started.
+
     """
 
     def __init__(self, limit: int, block: bool) -> None:
@@ -52,13 +58,19 @@ class WriterProcess:
         self.fault = ''
         # its own session, so that Ctrl-C in a terminal ends the simulation only; the writer ends
         # when its input does
-        self._process = subprocess.Popen(
-            # -P: modules that lie in the working folder are not imported
-            [sys.executable, '-P', '-m', 'fluid_sim_ros.recording.writing.writer'],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, bufsize=0,
-        )  # fmt: skip
+        try:
+            self._process = subprocess.Popen(
+                # -P: modules that lie in the working folder are not imported
+                [sys.executable, '-P', '-m', 'fluid_sim_ros.recording.writing.writer'],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, bufsize=0,
+            )  # fmt: skip
+        except OSError as error:  # such as too few file handles, or no memory
+            raise ConfigError(f'record: the log cannot be written: {error.strerror}') from None
         self.pid = self._process.pid
         self._pipe = _stream(self._process.stdin).fileno()
+        # poll takes any file number, select those below 1024 only
+        self._room = select.poll()
+        self._room.register(self._pipe, select.POLLOUT)
         os.set_blocking(self._pipe, False)
         with contextlib.suppress(OSError):  # beyond the user's limit: the default will do
             fcntl.fcntl(self._pipe, fcntl.F_SETPIPE_SZ, _PIPE_SIZE)
@@ -85,8 +97,10 @@ class WriterProcess:
         self.drain()
 
     def drain(self) -> None:
-        """Write as much of the queue as the pipe takes."""
+        """Write as much of the queue as the pipe takes, and note whether the process has ended."""
         queue = self._queue
+        if not queue and self.running and self._process.poll() is not None:
+            self._end()
         try:
             while queue and self.running:
                 done = os.write(self._pipe, queue[0])
@@ -105,7 +119,7 @@ class WriterProcess:
         if self.queued > self._limit:
             self.drain()
         while self.queued > self._limit and self._block:
-            select.select([], [self._pipe], [])
+            self._room.poll()
             self.drain()
         return self.queued <= self._limit
 
@@ -123,9 +137,13 @@ class WriterProcess:
         self.queued = 0
         with contextlib.suppress(BrokenPipeError):
             _stream(self._process.stdin).close()
-        with _stream(self._process.stdout) as answers:
-            lines = answers.read().splitlines()
-        code = self._process.wait(timeout)
+        self._process.stdin = None
+        try:
+            lines = self._process.communicate(timeout=timeout)[0].splitlines()
+        except subprocess.TimeoutExpired:  # a disk that does not answer
+            self.fault = f'its writer has not ended within {timeout:g} s'
+            return
+        code = self._process.returncode
         said = json.loads(lines[-1]) if lines else {}
         if code or 'fault' in said:
             self.fault = said.get('fault', f'its writer ended with code {code}')
