@@ -1,8 +1,8 @@
 """Runs a scene without ROS: the same simulation and loop as the node, with a progress bar."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,10 +13,11 @@ from rich.table import Table
 
 from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_lines
 from fluid_sim_ros.cli.home import scene_at, turn_to
+from fluid_sim_ros.cli.recorded import recorded, watch
 from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
 from fluid_sim_ros.cli.tables import table_of
 from fluid_sim_ros.cli.watcher import SAMPLE_PERIOD, Watcher
-from fluid_sim_ros.errors import ConfigError, listed, needed_for
+from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.interruption import stopped_by_signals
 from fluid_sim_ros.loop.hold import Hold
 from fluid_sim_ros.loop.pacing import KEPT_PACE, Pacing, RealTime
@@ -126,7 +127,7 @@ def run_scene(
         say = plain_lines(progress.console)
         watcher = Watcher(simulation, progress, live)
         sinks: list[Sink] = [watcher]
-        recording = _recording(simulation, record, record_topics, allow_assets_from, sinks)
+        recording = recorded(simulation, record, record_topics, allow_assets_from, sinks)
         # from the making of the log to its end: a signal ends the flight, and nothing else
         with stopped_by_signals() as interruption, recording as (files, log):
             watchdogs = Watchdogs(simulation, lambda line: _warn(line, say, log))
@@ -138,9 +139,7 @@ def run_scene(
                 pacing = flight.pacing
             if hold:
                 sinks.append(Hold(simulation, log))
-            runner = Runner(
-                simulation, NoSource(), sinks, pacing, housekeeping=_recording_watch(log, say)
-            )
+            runner = Runner(simulation, NoSource(), sinks, pacing, housekeeping=watch(log, say))
             connected = nullcontext() if flight is None else flight.of(runner)
             interruption.stops(runner.stop)
             with connected:
@@ -185,47 +184,6 @@ def _warn(line: str, say: Callable[[str], None], log: 'RecordingSink | None') ->
     say(f'warning: {line}')
     if log is not None:
         log.event(warning=line)
-
-
-def _recording_watch(
-    log: 'RecordingSink | None', say: Callable[[str], None]
-) -> Callable[[], None]:
-    """Return what says at once, and once, that the recording has stopped; the flight goes on."""
-    said = False
-
-    def look() -> None:
-        nonlocal said
-        if log is not None and log.recorder.fault and not said:
-            said = True
-            say(f'warning: {log.recorder.fault}; going on without')
-
-    return look
-
-
-@contextmanager
-def _recording(
-    simulation: Simulation,
-    path: str | Path | None,
-    topics: Sequence[str],
-    folders: Sequence[Path],
-    sinks: list[Sink],
-) -> Iterator[tuple[dict[str, Any], 'RecordingSink | None']]:
-    """Add a recording sink where one is asked for; give what the result says of it, and it."""
-    if path is None:
-        yield {}, None
-        return
-    with needed_for('--record'):
-        from fluid_sim_ros.recording.sink import RecordingSink
-    settings = {'fluid': simulation.settings.fluid or ''}
-    sink = RecordingSink(simulation, Path(path), settings, topics, folders)
-    sinks.append(sink)
-    files: dict[str, Any] = {'record': str(sink.recorder.paths[0])}
-    try:
-        yield files, sink
-    finally:
-        sink.close()
-        files['records'] = [str(path) for path in sink.recorder.paths]
-        files['record_fault'] = sink.recorder.fault
 
 
 def summary_table(result: dict[str, Any]) -> Table:

@@ -87,8 +87,7 @@ class ControllerNode(Node, ABC):
 
     #: Heading error at which a waypoint counts as reached [rad].
     turn = 0.2
-    #: As of ``LoopingNode``: it has nothing to lose.
-    lost = ''
+    lost = ''  # as of LoopingNode
 
     def __init__(
         self,
