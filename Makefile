@@ -57,7 +57,7 @@ docs: setup-demo
 	@$(BIN)/python .ci/check_docs.py
 
 site: setup-docs
-	@PYTHONPATH=. $(BIN)/python .ci/site.py
+	@PYTHONPATH=. $(BIN)/python .ci/site_pages.py
 
 wheel:
 	@.ci/wheel

@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import bench_page  # a script beside this one
+import reference_pages
+import site_pages
 
 from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.ros.parameters import simulator as parameters
@@ -114,8 +116,13 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'advice': ('doc/lab.md', advice),
     'added mass': ('doc/hydro.md', added_mass),
     'validation': ('doc/validation.md', validation),
+    'questions': ('doc/development.md', site_pages.questions),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
+    'command line': ('doc/reference/command_line.md', reference_pages.command_line),
+    'scene files': ('doc/reference/scene_files.md', reference_pages.scene_files),
+    'sweep files': ('doc/reference/sweep_files.md', reference_pages.sweep_files),
+    'mapping files': ('doc/reference/mapping_files.md', reference_pages.mapping_files),
     'px4 parameters': ('doc/autopilot_px4.md', partial(autopilot_parameters, 'px4')),
     'ardupilot parameters': (
         'doc/autopilot_ardupilot.md',

@@ -27,16 +27,17 @@ nitpicky = True
 html_theme = 'furo'
 html_title = f'fluid_sim_ros {release}'
 html_static_path = []
+html_search_scorer = str(Path(__file__).with_name('_ext') / 'scorer.js')
 html_copy_source = False
 html_show_sourcelink = False
 # Read by repository_pages: headings of the contents, and the pages below them in order.
 site_contents = {
-    'Start': ['install'],
+    'Start': ['install', 'faq'],
     'Vehicles': ['vehicles/README', 'new_vehicle', 'import', 'hydro', 'fleets'],
     'The world': ['scenes', 'weather', 'waves', 'sensors'],
     'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],
     'Results': ['logs', 'sweep', 'lab', 'reality', 'validation'],
-    'Reference': ['parameters', 'ros_conventions', 'plugins', 'foil', 'thruster'],
+    'Reference': ['reference/*', 'parameters', 'ros_conventions', 'plugins', 'foil', 'thruster'],
     'Understand': ['physics', 'limits', 'robustness', 'network'],
     'Project': ['project/*', 'development', 'extending'],
 }

@@ -63,7 +63,8 @@ def with_site_links(text: str, source: PurePosixPath, page: PurePosixPath) -> st
         if target in HOMES:
             target = f'doc/{HOMES[target]}'
         if target.startswith('doc/') and target.endswith('.md'):
-            return f'[{label}]({os.path.relpath(target, here)}{mark}{anchor})'
+            shown = '' if label == link else label  # the page's title stands for its file
+            return f'[{shown}]({os.path.relpath(target, here)}{mark}{anchor})'
         shown = f'`{target}`'
         return shown if label.strip('`') in (target, name) else f'{label} ({shown})'
 

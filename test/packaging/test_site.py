@@ -17,6 +17,7 @@ import repository_pages as pages
     ('text', 'expected'),
     [
         ('[x](physics.md#waves)', '[x](physics.md#waves)'),
+        ('[waves.md](waves.md)', '[](waves.md)'),
         ('[CI](../.ci/run)', 'CI (`.ci/run`)'),
         ('[`.ci/run`](../.ci/run)', '`.ci/run`'),
         ('[S](../SECURITY.md#limits)', '[S](project/security.md#limits)'),
