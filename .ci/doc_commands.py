@@ -12,7 +12,7 @@ import time
 import traceback
 from pathlib import Path
 
-from test.support.doc_blocks import blocks
+from test.support.doc_blocks import blocks, tutorials
 from test.support.doc_commands import run_block
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 def main() -> int:
     """Run them all; return how many failed, at most 1."""
     failed, begin = [], time.monotonic()
-    for block in blocks(shell=True):
+    for block in tutorials(blocks(shell=True)):
         name = f'{block.page}:{block.line}'
         with tempfile.TemporaryDirectory() as folder:
             for part in ('.venv', 'config', 'models'):

@@ -33,6 +33,7 @@ html_show_sourcelink = False
 # Read by repository_pages: headings of the contents, and the pages below them in order.
 site_contents = {
     'Start': ['install', 'faq'],
+    'Tutorials': ['tutorials/quad_topics', 'tutorials/dive_bluerov2', 'tutorials/*'],
     'Vehicles': ['vehicles/README', 'new_vehicle', 'import', 'hydro', 'fleets'],
     'The world': ['scenes', 'weather', 'waves', 'sensors'],
     'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],

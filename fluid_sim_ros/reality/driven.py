@@ -33,7 +33,10 @@ Edit = Callable[[mujoco.MjSpec], None]
 #: Slew of wind and current in place of the medium's own: no limit, no acceleration of the fluid.
 _AT_ONCE = '0'
 #: Keys of fluid_sim.thruster that a rigid body has not.
-_AERODYNAMIC = ('rotor_drag', 'rolling_moment', 'ground_effect', 'ground', 'fluid')
+_AERODYNAMIC = (
+    'rotor_drag', 'rolling_moment', 'ground_effect', 'ground', 'fluid',
+    'inflow', 'inflow_law', 'zero_thrust_advance', 'measured_advance',
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from test.support.doc_blocks import blocks
+from test.support.doc_blocks import blocks, files_of, tutorials
 from test.support.doc_commands import EXCERPTS, NOT_RUN, SHORTER, plain, run_block
 from test.support.egg_info import sections
 from test.support.paths import ROOT
@@ -28,9 +28,14 @@ sys.meta_path.insert(0, Blocker())
 #: Run by `make test-full`, and by .ci/run in a step of their own.
 SHELL = [
     pytest.param(block, id=f'{block.page}:{block.line}', marks=pytest.mark.full)
-    for block in blocks(shell=True)
+    for block in tutorials(blocks(shell=True))
 ]
-PYTHON = [pytest.param(block, id=f'{block.page}:{block.line}') for block in blocks(shell=False)]
+#: Those that are not saved as a file, which commands of the page then run.
+PYTHON = [
+    pytest.param(block, id=f'{block.page}:{block.line}')
+    for block in blocks(shell=False)
+    if block.text not in files_of(block.page).values()
+]
 
 
 def demo_distributions():
@@ -81,6 +86,8 @@ def checkout(tmp_path, egg_info):
         call = shlex.join([sys.executable, '-c', f'{code}sys.exit(run())'])
         (programs / name).write_text(f'#!/bin/sh\nexec {call} "$@"\n')
         (programs / name).chmod(0o755)
+    (programs / 'python').write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
+    (programs / 'python').chmod(0o755)
     for folder in ('config', 'models'):
         shutil.copytree(ROOT / folder, tmp_path / folder)
     blocker = tmp_path / 'blocker'
@@ -137,3 +144,13 @@ def test_what_the_tests_have_besides_is_known():
     blocked = not_in_the_demo()
     assert {'pytest', 'hypothesis'} <= set(blocked)
     assert not {'numpy', 'mujoco', 'rclpy', 'matplotlib', 'mcap', 'pymavlink'} & set(blocked)
+
+
+def test_each_file_of_a_tutorial_is_used_by_a_command_of_its_page():
+    pages = {block.page: block.text for block in tutorials(blocks(shell=True))}
+    files = [
+        (page, name) for page in pages if page.startswith('doc/tutorials/')
+        for name in files_of(page)
+    ]  # fmt: skip
+    assert len(files) >= 4
+    assert [(page, name) for page, name in files if name not in pages[page]] == []

@@ -2,6 +2,7 @@
 
 import json
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -10,7 +11,10 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.flight import FlightError
 from fluid_sim_ros.flights.mapping import FlightMap
 from fluid_sim_ros.flights.reader import read_flight
+from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.reality.compare import Part, compare
+from fluid_sim_ros.reality.driven import without_air
+from fluid_sim_ros.resources import models_folder
 from test.support.flight_logs import csv_text
 from test.support.flown import thrust_scaled, write_x500, x500_table
 
@@ -128,3 +132,12 @@ def test_speeds_in_the_wrong_unit_are_refused(tmp_path):
 def test_windows_longer_than_the_flight_are_refused(log):
     with pytest.raises(FlightError, match=r'no window of 9 s is whole'):
         compare(read_flight(log), 'x500', part=Part(horizons=(9.0,)))
+
+
+def test_rotors_with_inflow_are_known_without_air():
+    load_plugins()
+    spec = mujoco.MjSpec.from_file(str(models_folder() / 'x500.xml'))
+    assert any('inflow_law' in plugin.config for plugin in spec.plugins)
+    without_air(spec)
+    spec.option.density = 0
+    assert spec.compile().nplugin == len(spec.plugins)

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from test.support.doc_blocks import Block
+from test.support.doc_blocks import Block, files_of
 
 #: What is not run, by its beginning, and why.
 NOT_RUN = {
@@ -30,6 +30,7 @@ NOT_RUN = {
     'Tools/autotest/sim_vehicle.py': 'needs ArduPilot',
     "fluid_sim run x500_ground --autopilot ardupilot --exec '": 'needs ArduPilot',
     'PX4_SYS_AUTOSTART=10016': 'needs PX4',
+    'fluid_sim doctor --autopilot px4': 'needs PX4',
     "fluid_sim run x500_ground --autopilot px4 --exec '": 'needs PX4',
     "fluid_sim run my_fleet.yaml --exec '": 'needs PX4',
     '.venv/bin/pip install': 'changes the environment',
@@ -80,7 +81,7 @@ EARLIER = {
     'models/examples/frame_rov_answers.yaml --panels 60',
     'my_scene.yaml': 'cp config/scenes/sphere.yaml my_scene.yaml',
 }
-MAKERS = ('--record flight.mcap', 'new-vehicle bee', 'fluid_sim import')
+MAKERS = ('--record flight.mcap', 'new-vehicle bee', 'fluid_sim import', 'cp config/scenes')
 #: Blocks of Python that are a part of a program of the reader's.
 EXCERPTS = {'doc/weather.md': 'uses arrays of the reader'}
 
@@ -135,6 +136,8 @@ def run_block(block: Block, folder: Path, environment: Mapping[str, str]) -> Non
         If one fails, or shows a traceback.
 
     """
+    for name, text in files_of(block.page).items():
+        (folder / name).write_text(text, encoding='utf-8')
     for file, command in EARLIER.items():
         if file in block.text and not any(start in block.text for start in MAKERS):
             subprocess.run(command, shell=True, cwd=folder, env=environment, check=True)
