@@ -113,7 +113,7 @@ def _modules_of(room: str) -> list[Path]:
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'scenes': ('README.md', scenes),
     'accuracy': ('README.md', accuracy),
-    'advice': ('doc/lab.md', advice),
+    'advice': ('doc/lab_methods.md', advice),
     'added mass': ('doc/hydro.md', added_mass),
     'validation': ('doc/validation.md', validation),
     'questions': ('doc/development.md', site_pages.questions),

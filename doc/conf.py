@@ -37,7 +37,7 @@ site_contents = {
     'Vehicles': ['vehicles/README', 'new_vehicle', 'import', 'hydro', 'fleets'],
     'The world': ['scenes', 'weather', 'waves', 'sensors'],
     'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],
-    'Results': ['logs', 'sweep', 'lab', 'reality', 'validation'],
+    'Results': ['logs', 'sweep', 'lab', 'lab_methods', 'reality', 'validation'],
     'Reference': ['reference/*', 'parameters', 'ros_conventions', 'plugins', 'foil', 'thruster'],
     'Understand': ['physics', 'limits', 'robustness', 'network'],
     'Project': ['project/*', 'development', 'extending'],
