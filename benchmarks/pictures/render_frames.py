@@ -34,6 +34,11 @@ def paper(points_w: np.ndarray) -> np.ndarray:
     return np.asarray(points_w) @ PAPER
 
 
+def label_at(point_w: np.ndarray, right: float, up: float) -> np.ndarray:
+    """Return the place of a label beside a point of the world."""
+    return paper(point_w) + np.array([right, up])
+
+
 def arrow(
     axes: Axes, start_w: np.ndarray, vector_w: np.ndarray, text: str, colour: str,
     shift: tuple[float, float] = (0.0, 0.0), width: float = 1.8,
@@ -78,20 +83,20 @@ def draw() -> None:
     zero = np.zeros(3)
     for axis, text in zip(np.eye(3), ('x east', 'y north', 'z up'), strict=True):
         arrow(axes, zero, 0.95 * axis, text, INK, (0.12, 0.0))
-    axes.text(*(paper(zero) + (-0.48, -0.05)), 'map', fontsize=11, weight='bold')
+    axes.text(*label_at(zero, -0.48, -0.05), 'map', fontsize=11, weight='bold')
     for axis, text, shift in zip(turn.T, ('x forward', 'y left', 'z up'),
                                  ((0.3, -0.06), (0.2, 0.06), (0.0, 0.04)), strict=True):  # fmt: skip
         arrow(axes, ORIGIN_W, 1.25 * axis, text, INK, shift)
-    axes.text(*(paper(ORIGIN_W) + (-2.45, -0.25)), '<v>/base_link, O', fontsize=11, weight='bold')
+    axes.text(*label_at(ORIGIN_W, -2.45, -0.25), '<v>/base_link, O', fontsize=11, weight='bold')
     axes.plot(*np.transpose([paper(zero), paper(ORIGIN_W)]), color=BODY, lw=1, ls=':')
-    axes.text(*(paper(0.55 * ORIGIN_W) + (-0.22, -0.06)), '$p_w$', fontsize=12, color=BODY)
+    axes.text(*label_at(0.55 * ORIGIN_W, -0.22, -0.06), '$p_w$', fontsize=12, color=BODY)
     # the flow, the velocity of O, and their difference
     flow, velocity = np.array([-0.5, 0.9, 0.0]), turn @ np.array([1.3, 0.0, 0.1])
     start = ORIGIN_W + np.array([2.2, -0.4, -0.45])
     arrow(axes, start, velocity, '$v$', WATER, (0.06, 0.05))
     arrow(axes, start, flow, '$u$', WATER)
     arrow(axes, start + flow, velocity - flow, '', WATER, width=1.0)
-    axes.text(*(paper(start + flow + 0.5 * (velocity - flow)) + (0.95, 0.14)),
+    axes.text(*label_at(start + flow + 0.5 * (velocity - flow), 0.95, 0.14),
               '$v_{rel} = R^T (v - u)$', color=WATER, fontsize=11, ha='center')  # fmt: skip
     # weight and buoyancy
     mass, buoyancy = ORIGIN_W + turn @ [-0.45, 0, -0.17], ORIGIN_W + turn @ [-0.45, 0, 0.13]
