@@ -111,8 +111,8 @@ def _modules_of(room: str) -> list[Path]:
 
 
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
-    'scenes': ('README.md', scenes),
-    'accuracy': ('README.md', accuracy),
+    'scenes': ('doc/scenes.md', scenes),
+    'accuracy': ('doc/accuracy.md', accuracy),
     'advice': ('doc/lab_methods.md', advice),
     'added mass': ('doc/hydro.md', added_mass),
     'validation': ('doc/validation.md', validation),

@@ -32,12 +32,12 @@ html_copy_source = False
 html_show_sourcelink = False
 # Read by repository_pages: headings of the contents, and the pages below them in order.
 site_contents = {
-    'Start': ['install', 'faq'],
+    'Start': ['install', 'view', 'faq'],
     'Tutorials': ['tutorials/quad_topics', 'tutorials/dive_bluerov2', 'tutorials/*'],
     'Vehicles': ['vehicles/README', 'new_vehicle', 'import', 'hydro', 'fleets'],
     'The world': ['scenes', 'weather', 'waves', 'sensors'],
     'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],
-    'Results': ['logs', 'sweep', 'lab', 'lab_methods', 'reality', 'validation'],
+    'Results': ['logs', 'sweep', 'lab', 'lab_methods', 'reality', 'accuracy', 'validation'],
     'Reference': ['reference/*', 'parameters', 'ros_conventions', 'plugins', 'foil', 'thruster'],
     'Understand': ['physics', 'limits', 'robustness', 'network'],
     'Project': ['project/*', 'development', 'extending'],

@@ -84,8 +84,8 @@ def draw() -> None:
     for axis, text in zip(np.eye(3), ('x east', 'y north', 'z up'), strict=True):
         arrow(axes, zero, 0.95 * axis, text, INK, (0.12, 0.0))
     axes.text(*label_at(zero, -0.48, -0.05), 'map', fontsize=11, weight='bold')
-    for axis, text, shift in zip(turn.T, ('x forward', 'y left', 'z up'),
-                                 ((0.3, -0.06), (0.2, 0.06), (0.0, 0.04)), strict=True):  # fmt: skip
+    shifts = ((0.3, -0.06), (0.2, 0.06), (0.0, 0.04))
+    for axis, text, shift in zip(turn.T, ('x forward', 'y left', 'z up'), shifts, strict=True):
         arrow(axes, ORIGIN_W, 1.25 * axis, text, INK, shift)
     axes.text(*label_at(ORIGIN_W, -2.45, -0.25), '<v>/base_link, O', fontsize=11, weight='bold')
     axes.plot(*np.transpose([paper(zero), paper(ORIGIN_W)]), color=BODY, lw=1, ls=':')

@@ -1,6 +1,9 @@
+import re
+
 import check_docs
 import doc_tables
 import pytest
+import reference_pages
 import unit_sphere
 
 from test.support.paths import ROOT
@@ -40,3 +43,19 @@ def test_a_table_without_marks_is_found():
 
 def test_the_sphere_of_robot_descriptions_is_what_its_script_makes():
     assert (ROOT / 'models/shapes/unit_sphere.stl').read_bytes() == unit_sphere.stl()
+
+
+def test_every_topic_of_the_node_is_in_the_reference():
+    text = (ROOT / 'doc' / 'reference' / 'topics.md').read_text()
+    rows = [line for line in text.splitlines() if line.startswith('| ')]
+    terms = re.findall(r'`(\w+)`', next(line for line in rows if '<term>' in line))
+    missing = []
+    for name, types in reference_pages.topic_names().items():
+        shown = re.sub(
+            r'wrench/(\w+)$', lambda m: 'wrench/<term>' if m[1] in terms else m[0], name
+        )
+        row = next((line for line in rows if f'`{shown}`' in line), '')
+        kinds = [kind.rpartition('/')[2] for kind in types]
+        if not all(kind in row for kind in kinds):
+            missing.append((name, kinds))
+    assert missing == []

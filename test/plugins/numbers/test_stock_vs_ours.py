@@ -1,4 +1,4 @@
-"""The README's accuracy table: ours is near the reference, stock is not."""
+"""The accuracy table of doc/accuracy.md: ours is near the reference, stock is not."""
 
 import pytest
 
