@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-full bench lint format docs site wheel clean setup-demo setup-test setup-bench setup-dev setup-docs
+.PHONY: help demo test test-full bench lint format docs site coverage wheel clean setup-demo setup-test setup-bench setup-dev setup-docs
 
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
@@ -20,6 +20,7 @@ help:
 	@echo 'make lint       ruff, mypy, clang-format (make format: let them rewrite the files)'
 	@echo 'make docs       write the tables of the documentation; check its links and pictures'
 	@echo 'make site       the documentation as pages of HTML: out/site/index.html'
+	@echo 'make coverage   the lines that the tests run through, Python and C++; out/coverage/'
 	@echo 'make wheel      dist/: a wheel that needs no compiler, and the source archive'
 	@echo 'make clean      remove what was built (.venv stays; rm -r .venv removes that)'
 
@@ -58,6 +59,9 @@ docs: setup-demo
 
 site: setup-docs
 	@PYTHONPATH=. $(BIN)/python .ci/site_pages.py
+
+coverage:
+	@.ci/coverage
 
 wheel:
 	@.ci/wheel

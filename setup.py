@@ -74,12 +74,13 @@ class BuildPluginLibrary(build_ext):
         if not library.exists():
             fail(f'{library.name} is not in {mujoco}; only Linux wheels of mujoco are supported')
         compiler = find_compiler()
+        chosen = shlex.split(os.environ.get('CXXFLAGS', ''))  # make coverage: counters
         objects = Path(self.build_temp) / 'plugins'
 
         def compile_one(source):
             target = (objects / Path(source).relative_to(SOURCES)).with_suffix('.o')
             target.parent.mkdir(parents=True, exist_ok=True)
-            run_compiler([*compiler, *COMPILE_FLAGS, f'-I{mujoco / "include"}', f'-I{SOURCES}',
+            run_compiler([*compiler, *COMPILE_FLAGS, *chosen, f'-I{mujoco / "include"}', f'-I{SOURCES}',
                           '-c', source, '-o', str(target)])  # fmt: skip
             return str(target)
 
@@ -93,7 +94,9 @@ class BuildPluginLibrary(build_ext):
         paths = ['-Wl,-rpath,$ORIGIN/../../mujoco']
         if 'bdist_wheel' not in self.distribution.commands:
             paths.append(f'-Wl,-rpath,{mujoco}')
-        run_compiler([*compiler, '-shared', *linked, str(library), *paths, '-o', str(output)])
+        run_compiler(
+            [*compiler, *chosen, '-shared', *linked, str(library), *paths, '-o', str(output)]
+        )
 
 
 class WheelForEachPython(bdist_wheel):
@@ -160,6 +163,8 @@ TEST = [
 ]  # fmt: skip
 # Other simulators, for benchmarks/peers/peer_simulators.py alone.
 PEERS = ['jsbsim>=1.3.3,<2', 'rotorpy>=3,<4']
+# What the tests run through: make coverage. From 7.10 on coverage.py measures child processes.
+COVERAGE = ['pytest-cov>=7,<8', 'coverage>=7.10,<8', 'gcovr>=8,<9']
 # The documentation site. Sphinx 9.1 needs Python 3.12.
 DOCS = ['sphinx>=8.2,<10', 'myst-parser>=4,<6', 'furo>=2025.7']
 # colcon from PyPI in the smallest set that builds, tests and reports an ament_python package.
@@ -235,6 +240,7 @@ setup(
         'peers': PEERS,
         'dev': DEV,
         'docs': DOCS,
+        'coverage': COVERAGE,
     },
     entry_points={
         'console_scripts': [

@@ -125,5 +125,5 @@ def test_set_up_of_an_unknown_group(checkout):
     code, lines = set_up(checkout, 'everything')
     assert code != 0
     assert lines == [
-        "setup: error: unknown group 'everything'; allowed: demo, test, bench, dev, docs"
+        "setup: error: unknown group 'everything'; allowed: demo, test, bench, dev, docs, coverage"
     ]

@@ -42,6 +42,7 @@ EXTRAS = {
     'peers': Part(('jsbsim', 'rotorpy'), 'other simulators, for one benchmark'),
     'dev': Part(('ruff', 'mypy', 'clang-format', 'colcon-core'), 'make lint, and colcon'),
     'docs': Part(('sphinx', 'myst-parser', 'furo'), 'make site: the documentation as HTML'),
+    'coverage': Part(('pytest-cov', 'coverage', 'gcovr'), 'make coverage'),
 }
 
 
