@@ -10,10 +10,12 @@ sys.path.insert(0, str(Path(__file__).with_name('_ext')))
 project = 'fluid_sim_ros'
 author = 'fluid_sim_ros maintainers'
 project_copyright = f'{author}, Apache-2.0'
-release = re.search(
-    r"__version__ = '(.+)'", (ROOT / 'fluid_sim_ros' / '__init__.py').read_text(encoding='utf-8')
-)[1]
-version = release
+# rosdoc2 copies doc/ to another place and says the version itself.
+package = ROOT / 'fluid_sim_ros' / '__init__.py'
+if package.exists():
+    release = re.search(r"__version__ = '(.+)'", package.read_text(encoding='utf-8'))[1]
+    version = release
+    html_title = f'{project} {release}'
 
 extensions = ['myst_parser', 'repository_pages']
 source_suffix = {'.md': 'markdown'}
@@ -25,7 +27,6 @@ highlight_language = 'bash'
 nitpicky = True
 
 html_theme = 'furo'
-html_title = f'fluid_sim_ros {release}'
 html_static_path = []
 html_search_scorer = str(Path(__file__).with_name('_ext') / 'scorer.js')
 html_copy_source = False

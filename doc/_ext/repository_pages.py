@@ -99,10 +99,11 @@ def read_source(app: Sphinx, name: str, source: list[str]) -> None:
     """Change the text of a page before it is parsed."""
     page = PurePosixPath(f'{name}.md')
     origin = PurePosixPath(TOP.get(name, f'doc/{page}'))
-    text = (ROOT / origin).read_text(encoding='utf-8') if name in TOP else source[0]
-    if origin.suffix == '.rst':
+    there = name in TOP and (ROOT / origin).exists()  # not where rosdoc2 has copied doc/ alone
+    text = (ROOT / origin).read_text(encoding='utf-8') if there else source[0]
+    if there and origin.suffix == '.rst':
         text = markdown_of(text)
-    text = with_site_links(text, origin, page)
+    text = with_site_links(text, origin if there else PurePosixPath(f'doc/{page}'), page)
     if name == 'index':
         text += contents(app.config.site_contents)
     if name == 'vehicles/README':
