@@ -120,6 +120,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
     'command line': ('doc/reference/command_line.md', reference_pages.command_line),
+    'python names': ('doc/reference/python.md', reference_pages.python_names),
     'scene files': ('doc/reference/scene_files.md', reference_pages.scene_files),
     'sweep files': ('doc/reference/sweep_files.md', reference_pages.sweep_files),
     'mapping files': ('doc/reference/mapping_files.md', reference_pages.mapping_files),

@@ -1,6 +1,7 @@
 """What the program itself says of its commands and files, as tables for doc/reference/."""
 
 import argparse
+import inspect
 import json
 import re
 from collections.abc import Iterator
@@ -8,6 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+import fluid_sim_ros
 from fluid_sim_ros.cli.main import _build_parser
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.messages.commands import Commands
@@ -179,6 +181,49 @@ def _range(what: dict[str, Any]) -> str:
         'exclusiveMaximum': '<', 'maximum': '<=',
     }  # fmt: skip
     return ''.join(f' {sign} {what[key]:g}' for key, sign in signs.items() if key in what)
+
+
+def python_names() -> str:
+    """Return what ``import fluid_sim_ros`` offers: each public name, its members, their words."""
+    parts = []
+    for name in fluid_sim_ros.__all__:
+        value = getattr(fluid_sim_ros, name)
+        parts += [f'## {name}', '', f'```text\n{_signature(value, name)}\n```', '', _words(value)]
+        if inspect.isclass(value):
+            parts += ['', '| Member | What it is |', '|---|---|', *_members(value)]
+        parts.append('')
+    return '\n'.join(parts).strip()
+
+
+def _signature(value: Any, name: str) -> str:
+    try:
+        found = inspect.signature(value)
+    except ValueError:
+        return name
+    kept = [part for part in found.parameters.values() if part.name != 'self']
+    if len(str(found)) > 200:  # the names are enough
+        return f'{name}({", ".join(part.name for part in kept)})'
+    plain = found.replace(parameters=kept, return_annotation=inspect.Signature.empty)
+    shown = re.sub(r'(\w+\.)+(\w+)', r'\2', f'{name}{plain}')
+    shown = re.sub(r'ndarray\[.*?\]\]', 'Array', shown)  # as numpy's versions differ in it
+    return re.sub(r"': '([^']*)'|(?<=: )'([^']*)'", r'\1\2', shown)
+
+
+def _words(value: Any) -> str:
+    """Return a docstring's words before its sections of parameters and returns."""
+    text = inspect.cleandoc(value.__doc__ or '')
+    return _described(re.split(r'\n\w+\n-+\n', text)[0])
+
+
+def _members(value: type) -> Iterator[str]:
+    # a simulation gets some of its methods when it is made
+    made = Simulation('sphere') if value is Simulation else value
+    for name in dir(made):
+        member = getattr(value, name, None) or getattr(made, name)
+        if name.startswith('_') or not (inspect.isroutine(member) or isinstance(member, property)):
+            continue
+        shown = name if isinstance(member, property) else _signature(member, name)
+        yield f'| `{shown.replace("|", "or")}` | {_words(member).splitlines()[0]} |'
 
 
 def topic_names() -> dict[str, set[str]]:
