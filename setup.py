@@ -80,8 +80,8 @@ class BuildPluginLibrary(build_ext):
         def compile_one(source):
             target = (objects / Path(source).relative_to(SOURCES)).with_suffix('.o')
             target.parent.mkdir(parents=True, exist_ok=True)
-            run_compiler([*compiler, *COMPILE_FLAGS, *chosen, f'-I{mujoco / "include"}', f'-I{SOURCES}',
-                          '-c', source, '-o', str(target)])  # fmt: skip
+            run_compiler([*compiler, *COMPILE_FLAGS, *chosen, f'-I{mujoco / "include"}',
+                          f'-I{SOURCES}', '-c', source, '-o', str(target)])  # fmt: skip
             return str(target)
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
