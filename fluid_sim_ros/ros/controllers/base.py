@@ -37,6 +37,7 @@ from fluid_sim_ros.simulation.plant import plant_of
 #: Longest wait before signals are looked at again [s].
 _WAIT = 0.05
 _POSE = 'geometry_msgs/msg/PoseStamped'
+_FIXED = 'the controller runs'
 
 
 class Answer(NamedTuple):
@@ -99,7 +100,7 @@ class ControllerNode(Node, ABC):
     ) -> None:
         super().__init__(name)
         self._table = parameters.table_of(gains, own or {})
-        declare(self, self._table)
+        declare(self, self._table, _FIXED)
         self.add_on_set_parameters_callback(self._judge)
         self.add_post_set_parameters_callback(self._take)
         self.scene = self.get_parameter('scene').value or scene
@@ -292,7 +293,7 @@ class ControllerNode(Node, ABC):
     # ---- parameters (executor thread) ----------------------------------------------------------
 
     def _judge(self, changes: list[Parameter]) -> SetParametersResult:
-        return judge(self, self._table, changes, fixed='the controller runs')
+        return judge(self, self._table, changes, _FIXED)
 
     def _take(self, changes: list[Parameter]) -> None:
         if any(change.name in self._table for change in changes):

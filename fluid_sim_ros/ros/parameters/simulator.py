@@ -22,11 +22,17 @@ MATCHES = ('stamp', 'count')
 RECORD_POLICIES = ('block', 'drop')
 THRUST_UNITS = ('newton', 'normalized')
 
+_RATES = {
+    'odom.rate': '<v>/odom', 'wrench.rate': 'each <v>/wrench topic',
+    'medium.rate': '<v>/medium/wind and current', 'joint_states.rate': '<v>/joint_states',
+    'clock.rate': '/clock', 'tf.rate': '/tf',
+}  # fmt: skip
+
 TABLE: dict[str, Declared] = {
     'scene': Declared(
         'quadrotor', 'scene name, or path of a scene (.yaml) or MJCF (.xml) file', names_place=True
     ),
-    'seed': Declared(0, 'seed of everything random', low=0),
+    'seed': Declared(0, 'seed of everything random: weather, sensors', low=0),
     'timestep': Declared(0.0, "[s] replaces the model's timestep; 0 = the model's", low=0, high=1),
     'integrator': Declared(
         '', "replaces the model's integrator; empty = the model's", choices=('', *INTEGRATORS)
@@ -78,9 +84,10 @@ TABLE: dict[str, Declared] = {
     'reset.keyframe': Declared('', "keyframe of ~/reset; empty = the scene's", live=True),
     'step_count': Declared(1, 'steps that ~/step takes', low=1, live=True),
     **{
-        name: Declared(rate, '[Hz] of simulated time, at the nearest steps', low=1e-3)
-        for name, rate in state_topics.DEFAULTS.items()
-        if name.endswith('.rate') and name != 'markers.rate'
+        name: Declared(
+            state_topics.DEFAULTS[name], f'[Hz] of {topics}; simulated time', low=1e-3
+        )
+        for name, topics in _RATES.items()
     },
     'tf.root': Declared(
         state_topics.DEFAULTS['tf.root'],
@@ -187,7 +194,7 @@ def declare_all(node: Node) -> None:
     given = parameter_overrides(node)
     if 'use_sim_time' in given and given['use_sim_time'].value:
         raise ConfigError(USE_SIM_TIME_REFUSED)
-    parameter_table.declare(node, TABLE)
+    parameter_table.declare(node, TABLE, 'the node is configured')
 
 
 def read_all(node: Node) -> dict[str, Any]:

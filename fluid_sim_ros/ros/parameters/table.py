@@ -1,7 +1,7 @@
 """Tables of ROS parameters: what declares them on a node, checks them and documents them."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,7 +64,7 @@ class Declared:
 Table = Mapping[str, Declared]
 
 
-def declare(node: Node, table: Table) -> None:
+def declare(node: Node, table: Table, fixed: str) -> None:
     """
     Declare a table on a node.
 
@@ -74,6 +74,8 @@ def declare(node: Node, table: Table) -> None:
         The node.
     table
         Its parameters by name.
+    fixed
+        While what the parameters that are not live keep their values, in words.
 
     Raises
     ------
@@ -99,7 +101,7 @@ def declare(node: Node, table: Table) -> None:
             raise ConfigError(f"parameter '{name}' is not known{hint} parameters: {listed(table)}")
     for name, declared in table.items():
         value = replaced.get(name, declared.default)
-        node.declare_parameter(name, value, _descriptor(declared), name in replaced)
+        node.declare_parameter(name, value, _descriptor(declared, fixed), name in replaced)
 
 
 def _warn_of_former(node: Node, name: str, former: str, both: bool) -> None:
@@ -168,10 +170,14 @@ def converted(declared: Declared, value: Any) -> Any:
     return value
 
 
-def _descriptor(declared: Declared) -> ParameterDescriptor:
+def _descriptor(declared: Declared, fixed: str) -> ParameterDescriptor:
+    """
+    Return what ``ros2 param describe`` shows.
+
+    None is read-only to ROS: that would refuse ``ros2 param load`` of the values that there are.
+    """
     descriptor = ParameterDescriptor(description=declared.description, dynamic_typing=True)
-    if declared.choices:
-        descriptor.additional_constraints = f'one of: {_choices(declared)}'
+    descriptor.additional_constraints = '; '.join(_constraints(declared, fixed))
     bounded = math.isfinite(declared.low) or math.isfinite(declared.high)
     if bounded and isinstance(declared.default, float):
         low, high = max(declared.low, -1e300), min(declared.high, 1e300)
@@ -180,6 +186,20 @@ def _descriptor(declared: Declared) -> ParameterDescriptor:
         high = int(min(declared.high, 2**62))
         descriptor.integer_range = [IntegerRange(from_value=int(declared.low), to_value=high)]
     return descriptor
+
+
+def _constraints(declared: Declared, fixed: str) -> Iterator[str]:
+    if declared.choices:
+        yield f'one of: {_choices(declared)}'
+    if declared.length:
+        yield f'{listed(map(str, declared.length))} values'
+    if isinstance(declared.default, list) and math.isfinite(declared.low):
+        yield f'each at least {declared.low:g}'
+    if declared.may_be_nan:
+        yield 'nan allowed'
+    if declared.names_place:
+        yield 'fixed after the start, unless allow_remote_paths was set there'
+    yield 'may change at run time' if declared.live else f'fixed while {fixed}'
 
 
 def _choices(declared: Declared) -> str:
