@@ -143,13 +143,15 @@ RENDER = ['imageio-ffmpeg>=0.5,<1', 'pillow>=10']
 # The page of the live view. view/web/front.py touches what viser keeps to itself: each minor
 # version is tested anew.
 VIEW = ['viser>=1.1,<1.2', 'trimesh>=4.8,<6']
+# The SDK's WebSocket server, for Foxglove and Lichtblick.
+FOXGLOVE = ['foxglove-sdk>=0.30,<0.31']
 # Coefficients of a mesh, and vehicles from meshes and URDF.
 HYDRO = [
     'capytaine>=3.0,<3.1', 'trimesh>=5.2,<6', 'manifold3d>=3.5,<4',
     'fast_simplification>=0.2,<0.3', 'pycollada>=0.9,<1', 'xacro>=2.1,<3',
 ]  # fmt: skip
 # All that the commands of README and doc/ use, on one machine without a GPU.
-ALL = [*ROS, *MAVLINK, *RECORD, *FLIGHTS, *RENDER, *CHARTS, *HYDRO, *SWEEP, *VIEW]
+ALL = [*ROS, *MAVLINK, *RECORD, *FLIGHTS, *RENDER, *CHARTS, *HYDRO, *SWEEP, *VIEW, *FOXGLOVE]
 TEST = [
     *MAVLINK,
     *FLIGHTS,
@@ -158,6 +160,7 @@ TEST = [
     *CHARTS,
     *HYDRO,
     *VIEW,
+    *FOXGLOVE,
     'urdf-parser-py>=0.0.4,<0.1',  # a second reader of robot descriptions
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
@@ -230,6 +233,7 @@ setup(
         'flights': FLIGHTS,
         'render': RENDER,
         'view': VIEW,
+        'foxglove': FOXGLOVE,
         'parquet': PARQUET,
         'sweep': SWEEP,
         'warp': WARP,

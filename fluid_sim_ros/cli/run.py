@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_lines
+from fluid_sim_ros.cli.foxglove import served
 from fluid_sim_ros.cli.home import scene_at, turn_to
 from fluid_sim_ros.cli.recorded import recorded, watch
 from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
@@ -51,6 +52,7 @@ def run_scene(
     record_topics: Sequence[str] = ('*',),
     allow_assets_from: Sequence[Path] = (),
     autopilot: AutopilotRun | Sequence[AutopilotRun] = (),
+    foxglove: int | None = None,
 ) -> dict[str, Any]:
     """
     Run a scene to its end and return what came out, ready for JSON.
@@ -77,6 +79,8 @@ def run_scene(
         Folders whose files the log may hold if the model names them; see ``RecorderOptions``.
     autopilot
         Who flies; several, each a vehicle of its own, share one lockstep and ``home``.
+    foxglove
+        Port for live viewers; None: there are none.
 
     Returns
     -------
@@ -137,13 +141,19 @@ def run_scene(
             if autopilots:
                 flight = Flight(simulation, pacing, autopilots, log, say)
                 pacing = flight.pacing
-            if hold:
-                sinks.append(Hold(simulation, log))
-            runner = Runner(simulation, NoSource(), sinks, pacing, housekeeping=watch(log, say))
-            connected = nullcontext() if flight is None else flight.of(runner)
-            interruption.stops(runner.stop)
-            with connected:
-                runner.run(until=steps)
+            viewers = served(simulation, foxglove, log, bool(autopilots), say)
+            with viewers as viewed:
+                if viewed is not None:
+                    sinks.append(viewed.sink)
+                if hold:
+                    sinks.append(Hold(simulation, log if viewed is None else viewed))
+                looked = watch(log, say)
+                runner = Runner(simulation, NoSource(), sinks, pacing, housekeeping=looked)
+                if viewed is not None:
+                    viewed.runner = runner
+                interruption.stops(runner.stop)
+                with nullcontext() if flight is None else flight.of(runner):
+                    runner.run(until=steps)
             wall = time.perf_counter() - begin
             if realtime and wall > _SHORTEST and simulation.time / wall < KEPT_PACE:
                 simulation.warnings.add(

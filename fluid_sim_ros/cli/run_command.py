@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.cli import autopilot, completion
+from fluid_sim_ros.cli.parser import at_least
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, console
 from fluid_sim_ros.errors import ConfigError
 
@@ -65,6 +66,11 @@ def add_parser(commands: Any, show: Show) -> None:
         '--pacing', choices=('free', 'realtime'), default='free',
         help='as fast as it goes (default), or with the clock and a line of what happens',
     )  # fmt: skip
+    run.add_argument(
+        '--foxglove', nargs='?', type=at_least(0, int), const=8765, metavar='PORT',
+        help='serve Foxglove and Lichtblick live on this machine (default port 8765; 0: one that '
+        'is free)',
+    )  # fmt: skip
     run.add_argument('--record', metavar='PATH', help='record to PATH.mcap, or a folder: a bag')
     run.add_argument(
         '--record-topics', metavar='PATTERN', nargs='+',
@@ -110,6 +116,7 @@ def _run(arguments: argparse.Namespace, show: Show) -> int:
         record_topics=arguments.record_topics or ['*'],
         allow_assets_from=arguments.allow_assets_from,
         autopilot=pilots,
+        foxglove=None if arguments.foxglove is None else int(arguments.foxglove),
     )
     show(arguments.json, summary_table(result), result)
     if arguments.record and arguments.json != '-':

@@ -7,9 +7,11 @@ from typing import Any
 from rclpy.node import Node
 
 from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError
+from fluid_sim_ros.loop.foxglove_port import LivePort
 from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.loop.runner import Runner
 from fluid_sim_ros.ros.autopilot import start_autopilots
+from fluid_sim_ros.ros.foxglove import start_foxglove
 from fluid_sim_ros.ros.health.diagnostics import Diagnostics
 from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
 from fluid_sim_ros.ros.inputs import Inputs
@@ -101,13 +103,20 @@ class Session:
             self._pacings.chosen(), requests, self._housekeeping,
         )  # fmt: skip
         self._diagnosed_at = 0.0
+        self.requests = requests
+        self._live: LivePort | None = None
         try:
+            self._live = start_foxglove(node, self, settings)
             self.tap = start_recording(
                 node, self.simulation, settings, self.inputs, self.outputs, self._diagnostics
             )
         except FluidSimError:
             self._autopilots.close()
+            if self._live is not None:
+                self._live.close()
             raise
+        if self._live is not None:
+            self.runner.sinks.append(self._live)
         self._graph = graph
         graph.connections.watch(entry.subscription for entry in self.inputs.inputs)
         graph.connections.watch(topic.publisher for topic in self.outputs.topics)
@@ -117,6 +126,8 @@ class Session:
         """End the log and remove every topic from the node."""
         self._graph.connections.forget()
         self._autopilots.close()
+        if self._live is not None:
+            self._live.close()
         if self.tap is not None:
             self.tap.close()
             if self.tap.fault and not self.lost:
@@ -178,6 +189,8 @@ class Session:
         self.outputs.restart()
         if self.tap is not None:
             self.tap.next_segment()
+        if self._live is not None:
+            self._live.restart()
         self.runner.restart()
         return self._time()
 

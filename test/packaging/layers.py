@@ -9,11 +9,21 @@ ORDER = (
     'errors', 'resources', 'interruption', 'step_clock', 'output',
     'physics', 'hydro', 'control', 'plugins',
     'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop', 'flights',
-    'new_vehicle', 'lab', 'sweep', 'reality', 'recording', 'mavlink', 'view', 'ros',
+    'new_vehicle', 'lab', 'sweep', 'reality', 'recording', 'mavlink', 'view', 'foxglove', 'ros',
     'demo', 'cli',
 )  # fmt: skip
 #: None of these imports another.
-LEAVES = ('new_vehicle', 'lab', 'sweep', 'reality', 'recording', 'mavlink', 'view', 'ros')
+LEAVES = (
+    'new_vehicle',
+    'lab',
+    'sweep',
+    'reality',
+    'recording',
+    'mavlink',
+    'view',
+    'foxglove',
+    'ros',
+)
 #: The package's own names that stand in its ``__init__`` itself; the rest it hands on.
 OF_THE_PACKAGE = ('__version__',)
 ROS_MODULES = (

@@ -57,6 +57,7 @@ SHORTER = {
     'fluid_sim run rov --advised': '--duration 2',
     'fluid_sim run amphibious': '--duration 2',
     'fluid_sim run quadrotor --record': '--duration 1',
+    'fluid_sim run quadrotor --hold --pacing realtime': '--duration 1',
     'fluid_sim advise': '--budget 3',
     'fluid_sim hydro': '--panels 60',
     'fluid_sim import': '--panels 60',

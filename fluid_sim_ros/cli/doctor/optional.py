@@ -26,6 +26,7 @@ EXTRAS = {
     ),
     'render': Part(('imageio-ffmpeg', 'pillow'), 'render: a log as a film'),
     'view': Part(('viser',), 'view: a scene, a log or a node in the browser'),
+    'foxglove': Part(('foxglove-sdk',), 'run --foxglove: live to Foxglove and Lichtblick'),
     'mavlink': Part(('pymavlink',), '--autopilot px4'),
     'parquet': Part(('pyarrow',), 'sweep on threads, and export --parquet'),
     'sweep': Part(('pyarrow', 'ray'), 'sweep --ray, on processes or a cluster'),

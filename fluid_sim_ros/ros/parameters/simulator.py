@@ -164,6 +164,10 @@ TABLE: dict[str, Declared] = {
     'autopilot.earth': Declared(
         'wgs84', "what places that PX4 gets are computed on; sphere = PX4's own", choices=EARTHS
     ),
+    'foxglove.port': Declared(
+        0, 'serve Foxglove and Lichtblick live on this port of this host (8765 is theirs); 0 = no',
+        low=0, high=65535,
+    ),
     'markers.rate': Declared(
         state_topics.DEFAULTS['markers.rate'], '[Hz] at most, of simulated and of wall time',
         low=0.1, high=100,

@@ -1,0 +1,1 @@
+"""States live to Foxglove and Lichtblick, without ROS: the channels and schemas of a log."""
