@@ -5,9 +5,11 @@ Time per vehicle and step, stepped as the node does: five steps a call, then all
 ``call`` is that without reading, ``long`` one call of 100 steps. All counts take turns in one run,
 and the medians of their ratios to a fleet of one count. Target: within 25 % of one vehicle. What
 grows is MuJoCo's own: ``mj_transmission`` makes a dense Jacobian over all degrees of freedom for
-each actuator at a site, and an x500 has eight of those. The node runs free with ten x500 and the
-odometry of all of them at 100 Hz to one subscriber. ``lockstep`` has an x500 for each of several
-PX4 that answer at once, all in one lockstep: speed, and processor time of an exchange.
+each actuator at a site, and an x500 has eight of those. ``stock``: processor time of as many free
+bodies without any plugin, bare and with eight motors of MuJoCo at sites each. The node runs free
+with ten x500 and the odometry of all of them at 100 Hz to one subscriber. ``lockstep`` has an x500
+for each of several PX4 that answer at once, all in one lockstep: speed, and processor time of an
+exchange.
 """
 
 import json
@@ -22,6 +24,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+import mujoco
 
 from benchmarks.common import arguments, wall_seconds, write
 from benchmarks.node.autopilot_bridge import px4_peer
@@ -130,6 +134,49 @@ def cost(model: str, folder: Path, rounds: int) -> dict[str, Any]:
     }
 
 
+def stock_model(count: int, motors: int) -> mujoco.MjModel:
+    """Return free bodies like an x500, without a plugin, each with motors of MuJoCo at sites."""
+    bodies, actuators = [], []
+    for i in range(count):
+        sites = ''.join(
+            f'<site name="s{i}_{k}" pos="{0.17 * (-1) ** k} .17 .06"/>' for k in range(motors)
+        )
+        actuators += [f'<general site="s{i}_{k}" gear="0 0 1 0 0 .016"/>' for k in range(motors)]
+        bodies.append(
+            f'<body pos="{3 * i} 0 10"><freejoint/><inertial pos="0 0 0" mass="2" '
+            f'diaginertia=".02 .02 .04"/>{sites}</body>'
+        )
+    return mujoco.MjModel.from_xml_string(
+        '<mujoco><option timestep=".002" integrator="implicitfast" density="1.225" '
+        f'viscosity="1.79e-5"/><worldbody>{"".join(bodies)}</worldbody>'
+        f'<actuator>{"".join(actuators)}</actuator></mujoco>'
+    )
+
+
+def stock(rounds: int) -> dict[str, Any]:
+    """Return the processor time of bare bodies and of bodies with motors, over that of one."""
+    result: dict[str, Any] = {}
+    for name, motors in (('bodies', 0), ('with eight motors', 8)):
+        models = {count: stock_model(count, motors) for count in COUNTS}
+        data = {count: mujoco.MjData(model) for count, model in models.items()}
+        times: dict[int, list[float]] = {count: [] for count in COUNTS}
+        for _ in range(rounds):
+            for count, model in models.items():
+                start, steps = time.process_time(), max(200, 4000 // count)
+                mujoco.mj_step(model, data[count], steps)
+                times[count].append((time.process_time() - start) / steps / count * 1e6)
+        result[name] = {
+            str(count): {
+                'us_per_body_step': statistics.median(values),
+                'ratio': statistics.median(
+                    value / one for value, one in zip(values, times[1], strict=True)
+                ),
+            }
+            for count, values in times.items()
+        }
+    return result
+
+
 def node(folder: Path, seconds: float) -> dict[str, Any]:
     """Return the real-time factor of the node with ten vehicles, and what arrived."""
     environment = {
@@ -187,21 +234,30 @@ def lockstep(count: int, folder: Path, seconds: float) -> dict[str, float]:
 
 def main() -> None:
     """Measure and write the result."""
-    options = arguments(__doc__, 'fleet')
+    options = arguments(__doc__, 'fleet', ('cost', 'stock', 'node', 'lockstep'))
+    chosen = options.only or ['cost', 'stock', 'node', 'lockstep']
+    result = json.loads(options.json.read_text('utf-8')) if options.only else {}
+    rounds, seconds = (5, 2.0) if options.quick else (25, 10.0)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        costs = {model: cost(model, folder, 5 if options.quick else 25) for model in MODELS}
-        ten = node(folder, 10.0 if options.quick else 60.0)
-        seconds = 2.0 if options.quick else 10.0
-        px4 = {str(count): lockstep(count, folder, seconds) for count in (1, 2, 4, 8)}
-    for model, ways in costs.items():
+        measured: dict[str, Callable[[], Any]] = {
+            'cost': lambda: {model: cost(model, folder, rounds) for model in MODELS},
+            'stock': lambda: stock(rounds),
+            'node': lambda: node(folder, 10.0 if options.quick else 60.0),
+            'lockstep': lambda: {str(n): lockstep(n, folder, seconds) for n in (1, 2, 4, 8)},
+        }
+        result |= {'target_ratio': TARGET} | {part: measured[part]() for part in chosen}
+    for model, ways in result['cost'].items():
         for way, rows in ways.items():
             shown = ', '.join(f'{n}: {r["us_per_vehicle_step"]:.2f}' for n, r in rows.items())
             print(f'{model}, {way}: {shown} us; 50 over one {rows["50"]["ratio"]:.3f}')
-    print(f'node with {VEHICLES}: {ten["real_time_factor"]:.1f} times real time')
-    for count, row in px4.items():
+    for kind, rows in result['stock'].items():
+        print(f'stock MuJoCo, {kind}: 50 over one {rows["50"]["ratio"]:.3f}')
+    print(f'node with {VEHICLES}: {result["node"]["real_time_factor"]:.1f} times real time')
+    for count, row in result['lockstep'].items():
         print(f'{count} PX4 in one lockstep: {row["real_time_factor"]:.1f} times real time')
-    write(options.json, {'target_ratio': TARGET, 'cost': costs, 'node': ten, 'lockstep': px4})
+    stamps = ('commit', 'date', 'mujoco', 'python', 'cpu', 'cores', 'os', 'load_average')
+    write(options.json, {key: value for key, value in result.items() if key not in stamps})
 
 
 if __name__ == '__main__':

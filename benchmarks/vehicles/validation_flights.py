@@ -18,6 +18,7 @@ LOGS = tuple(f'crazyflie_figure8_{number}.usd' for number in ('00', '12', '20', 
 SOURCE = (
     'four flights of a Crazyflie 2.1 of 37 g, motion capture, measured rotors (TU Berlin, IMRC)'
 )
+FITTED = 'crazyflie_37g'  # the scene with the numbers of these flights
 TILTS = (5.0, 10.0, 15.0)  # [deg]
 BLOCK = 25  # samples of 500 Hz that are averaged
 LITERATURE = 'the set of RotorPy (Folk et al. 2023); published identifications give 3.1 to 8.4 m/s'
@@ -68,12 +69,12 @@ def read_model(key: str) -> list[float]:
     return [float(word) for word in found[1].split()]
 
 
-def tilted(tilt: float) -> float:
-    """Return the speed of the model in level flight at a held tilt [deg]."""
-    simulation = runs.start('crazyflie', 500.0)
+def tilted(tilt: float, scene: str = 'crazyflie') -> float:
+    """Return the speed of a model in level flight at a held tilt [deg]."""
+    simulation = runs.start(scene, 500.0)
     weight = float(simulation.model.body_mass.sum()) * G
     angle = np.radians(tilt)
-    velocity = runs.tilted('crazyflie', angle, weight / (4 * np.cos(angle)), 40.0, 1.0)
+    velocity = runs.tilted(scene, angle, weight / (4 * np.cos(angle)), 40.0, 1.0)
     return float(np.hypot(velocity[-1, 0], velocity[-1, 1]))
 
 
@@ -100,6 +101,7 @@ def crazyflie(folder: Path | None) -> list[Row]:
         measured = MASS * G * np.tan(np.radians(tilt)) / (drag * speeds)
         rows.append(
             Row('crazyflie', f'speed at {tilt:g} deg of tilt', 'm/s', float(measured),
-                f'{SOURCE}: from their drag', speed, 'half the rotor drag')
+                f'{SOURCE}: from their drag', speed, 'half the rotor drag',
+                tilted(tilt, FITTED), f'scene {FITTED}')
         )  # fmt: skip
     return rows

@@ -10,6 +10,17 @@ _OURS = re.compile(r'^(fluid_sim\.\w+: .*)$', re.MULTILINE)
 _UNKNOWN_KEY = re.compile(r"unrecognized attribute 'plugin:(\w+)' for plugin ([\w.]+)")
 _OUT_OF_BOUNDS = re.compile(r'Invalid model: (\w+)_plugin out of bounds')
 _ELEMENT = re.compile(r"Element name '([^']*)'")
+#: What MuJoCo says of a fault that users make, without how to mend it.
+_REMEDIES = {
+    'mass and inertia of moving bodies must be larger': (
+        'give it a mass above 0 [kg]: mass or density of a geom, or <inertial>'
+    ),
+    'inertia must satisfy A + B >= C': (
+        'no body has such moments: the two smaller ones together are at least the largest; check '
+        'axes, units, and the signs of products of inertia'
+    ),
+    'Error opening file': 'its path is relative to the model, or to meshdir',
+}
 
 
 def load_error_line(error: Exception) -> str:
@@ -41,4 +52,6 @@ def load_error_line(error: Exception) -> str:
         return f'the plugin of one {outside[1]} is not in the model: {REMEDY}'
     if 'plugin->init failed' in text:
         return 'a plugin refuses the changed model; the WARNING before this line says why'
-    return ' '.join(text.split())
+    line = ' '.join(text.split())
+    remedy = next((words for fault, words in _REMEDIES.items() if fault in line), '')
+    return f'{line}; {remedy}' if remedy else line

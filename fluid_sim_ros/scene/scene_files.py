@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.errors import ConfigError, printable
 from fluid_sim_ros.resources import config_folder, models_folder
 from fluid_sim_ros.scene.fleet.files import fleet_fields, is_fleet
 from fluid_sim_ros.scene.vehicle_files import model_file, vehicle_file
@@ -44,6 +45,7 @@ def scene_fields(path: Path) -> dict[str, Any]:
     if is_fleet(raw):
         fleet = parse(FleetFile, raw, path)
         return _common(fleet, path) | fleet_fields(fleet, path)
+    _check_kind(raw, path)
     content = parse(SceneFile, raw, path)
     vehicles = None
     if content.vehicles is not None:
@@ -56,6 +58,26 @@ def scene_fields(path: Path) -> dict[str, Any]:
         'keyframe': content.keyframe,
         'vehicles': vehicles,
     }
+
+
+def _check_kind(raw: Any, path: Path) -> None:
+    """Refuse what is neither a scene of one model nor a fleet, in words that say which is which."""
+    if not isinstance(raw, dict) or not isinstance(raw.get('vehicles'), dict):
+        return
+    if 'model' not in raw and not raw['vehicles']:
+        raise ConfigError(
+            f"{path}: missing key 'model', or vehicles with a model each: "
+            'vehicles: {one: {model: x500}}'
+        )
+    own = [
+        str(name) for name, value in raw['vehicles'].items()
+        if isinstance(value, dict) and 'model' in value
+    ]  # fmt: skip
+    if 'model' in raw and own:
+        raise ConfigError(
+            f"{path}: key 'vehicles.{printable(own[0])}.model': the scene has a model of its own; "
+            "leave out 'model' at the top for a fleet, or here for vehicles of that model"
+        )
 
 
 def _common(content: SceneKeys, path: Path) -> dict[str, Any]:

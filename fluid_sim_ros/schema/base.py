@@ -120,6 +120,8 @@ def _first_fault(schema: type[BaseModel], error: ValidationError, named: str) ->
     place, owner = _place(schema, fault['loc'])
     kind, message = fault['type'], fault['msg'].removeprefix('Value error, ')
     message = printable(message.replace('Input should be', 'must be'), 500)
+    if kind == 'string_pattern_mismatch' and fault['ctx']['pattern'] == NAME_PATTERN:
+        message = 'must have letters, digits and _ only, a letter first'
     key = _filled(named, printable(place))
     if kind == 'extra_forbidden':
         known = owner.model_fields

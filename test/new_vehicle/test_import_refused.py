@@ -74,3 +74,9 @@ def test_files_that_are_none(tmp_path):
     write_imported(made, tmp_path / 'out')
     with pytest.raises(ConfigError, match='exists; give another --out'):
         write_imported(made, tmp_path / 'out')
+
+
+def test_a_mass_of_zero_is_refused_and_not_taken_as_left_out(tmp_path):
+    for name, words in (('mass', 'mass 0: must be above 0'), ('body_density', 'greater than 0')):
+        with pytest.raises(ConfigError, match=words):
+            answers_of(None, {name: 0.0})

@@ -129,7 +129,10 @@ def answers_of(path: Path | None, options: Mapping[str, Any]) -> Answers:
         For the first fault, with the file and key, or the option.
 
     """
-    given = {key: value for key, value in options.items() if value not in (None, [], False)}
+    given = {
+        key: value for key, value in options.items()
+        if value is not None and value is not False and value != []
+    }  # fmt: skip
     content: dict[str, Any] = {}
     if path is not None:
         content = read_yaml(path) or {}

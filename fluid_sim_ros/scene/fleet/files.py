@@ -115,6 +115,11 @@ def _vehicle_of(
     moving = [body for body in moving_roots(spec) if body.name]
     driven = [body for body in moving if _is_driven(spec, body)]
     found = [body.name for body in (driven if len(moving) > 1 else moving)]
+    if not moving:
+        raise ConfigError(
+            f"{where}: nothing with a name moves by itself in the model '{model.stem}'; give its "
+            'base a name and a <freejoint/>'
+        )
     if len(found) != 1:
         names = [body.name for body in moving]
         raise ConfigError(

@@ -28,6 +28,13 @@ def write(tmp_path):
         '<mujoco><asset><mesh name="m" file="gone.stl"/></asset><worldbody><body name="b">'
         '<freejoint/><geom type="mesh" mesh="m"/></body></worldbody></mujoco>'
     )
+    (tmp_path / 'still.xml').write_text(BOAT.replace('<freejoint/>', ''))
+    bare = (
+        '<mujoco><worldbody><body name="boat"><freejoint/><inertial pos="0 0 0" mass="{}" '
+        'diaginertia="{}"/></body></worldbody></mujoco>'
+    )
+    (tmp_path / 'light.xml').write_text(bare.format(-1, '1 1 1'))
+    (tmp_path / 'flat.xml').write_text(bare.format(1, '.3 .4 1'))
     (tmp_path / 'fast.xml').write_text(BOAT.replace('timestep="0.002"', 'timestep="0.001"'))
     (tmp_path / 'rk4.xml').write_text(BOAT.replace('implicitfast', 'RK4'))
     (tmp_path / 'moon.xml').write_text(BOAT.replace('<option', '<option gravity="0 0 -1.62"'))
@@ -48,7 +55,14 @@ def write(tmp_path):
 @pytest.mark.parametrize(
     ('text', 'line'),
     [
-        ('vehicles: {}', "missing key 'model'"),
+        ('vehicles: {}', "missing key 'model', or vehicles with a model each: vehicles: .one"),
+        (
+            'model: x500\nvehicles: {one: {model: x500}}',
+            r"key 'vehicles\.one\.model': the scene has a model of its own; leave out 'model'",
+        ),
+        ('vehicles: {one: {model: still.xml}}', "moves by itself in the model 'still'; give its"),
+        ('vehicles: {one: {model: light.xml}}', "'boat'.*; give it a mass above 0 .kg.: mass or"),
+        ('vehicles: {one: {model: flat.xml}}', "'boat'.*; no body has such moments: the two smal"),
         ('vehicles: {one: {model: x50}}', r"'vehicles\.one\.model'.*no model 'x50'; did you mean"),
         (
             'vehicles: {one: {model: x500, positon: [0, 0, 1]}}',
@@ -60,7 +74,7 @@ def write(tmp_path):
         ),
         ('vehicles: {one: {model: x500, position: [1]}}', r"key 'vehicles\.one\.position'"),
         ('vehicles: {one: {model: x500, yaw: .nan}}', r"key 'vehicles\.one\.yaw': must be finite"),
-        ('vehicles: {1x: {model: x500}}', '1x'),
+        ('vehicles: {1x: {model: x500}}', 'letters, digits and _ only, a letter first .got .1x'),
         ('vehicles: {one: {model: x500}, one: {model: x500}}', "key 'one' stands twice"),
         (
             'vehicles: {a: {model: x500, count: 2, spacing: 2}, a_2: {model: x500}}',
