@@ -61,7 +61,7 @@ def scene_fields(path: Path) -> dict[str, Any]:
 
 
 def _check_kind(raw: Any, path: Path) -> None:
-    """Refuse what is neither a scene of one model nor a fleet, in words that say which is which."""
+    """Refuse what is neither a scene of one model nor a fleet; say which is which."""
     if not isinstance(raw, dict) or not isinstance(raw.get('vehicles'), dict):
         return
     if 'model' not in raw and not raw['vehicles']:
