@@ -53,7 +53,7 @@ class FluidSimNode(LifecycleNode):
         self.add_on_set_parameters_callback(self._judge_change)
         self.add_post_set_parameters_callback(self._take_change)
         self._graph = GraphMonitor(self, self._report)
-        create_services(self, self._on_session)
+        create_services(self, self._on_session, self.end)
 
     # ---- stepping thread -------------------------------------------------------------------
 

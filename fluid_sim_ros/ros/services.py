@@ -8,16 +8,16 @@ from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.ros.session import Session
+from fluid_sim_ros.ros.standard.answers import OnSession
+from fluid_sim_ros.ros.standard.services import create_standard_services
 
-#: Has the stepping thread do work on the session; returns what to tell the caller.
-OnSession = Callable[[Callable[[Session], str]], str]
 
-
-def create_services(node: Node, on_session: OnSession) -> None:
+def create_services(node: Node, on_session: OnSession, end: Callable[[], None]) -> None:
     """
     Create the services; their answers carry the simulated time, or why it did not work.
 
-    ``~/reset``, ``~/step`` (std_srvs/Trigger), ``~/pause``, ``~/enable_wind`` (std_srvs/SetBool).
+    ``~/reset``, ``~/step`` (std_srvs/Trigger), ``~/pause``, ``~/enable_wind`` (std_srvs/SetBool);
+    and those of simulation_interfaces where it is installed.
 
     Parameters
     ----------
@@ -26,8 +26,11 @@ def create_services(node: Node, on_session: OnSession) -> None:
     on_session
         Has the stepping thread do work on the session. Raises FluidSimError where there is none,
         or the work fails.
+    end
+        Ends the node.
 
     """
+    create_standard_services(node, on_session, end)
 
     def serve(response: Any, work: Callable[[Session], str]) -> Any:
         try:

@@ -214,17 +214,25 @@ class Session:
             If the run has diverged.
 
         """
-        self._check_alive()
+        self.check_alive()
         self.runner.paused = paused
         return self._time()
 
-    def step(self) -> str:
-        """Return what to tell the caller, after ``step_count`` steps while paused."""
-        self._check_alive()
+    def step(self, steps: int = 0) -> str:
+        """
+        Return what to tell the caller, after steps while paused; no more than the run has left.
+
+        Parameters
+        ----------
+        steps
+            How many; 0: ``step_count``.
+
+        """
+        self.check_alive()
         if not self.runner.paused:
             raise CommandError('not paused; call ~/pause with true first')
         left = self._until - self.simulation.tick
-        self.runner.advance_paused(min(self._settings['step_count'], left))
+        self.runner.advance_paused(min(steps or self._settings['step_count'], left))
         return self._time()
 
     def enable_wind(self, enabled: bool) -> str:
@@ -278,7 +286,8 @@ class Session:
             self._settings.update(before)
             raise
 
-    def _check_alive(self) -> None:
+    def check_alive(self) -> None:
+        """Raise CommandError where the run has diverged."""
         if self.diverged:
             raise CommandError(f'{self.diverged}; call ~/reset first')
 

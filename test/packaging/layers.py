@@ -29,7 +29,7 @@ OF_THE_PACKAGE = ('__version__',)
 ROS_MODULES = (
     'rclpy', 'rcl_interfaces', 'rosgraph_msgs', 'std_msgs', 'std_srvs', 'geometry_msgs',
     'nav_msgs', 'sensor_msgs', 'diagnostic_msgs', 'visualization_msgs', 'lifecycle_msgs',
-    'builtin_interfaces', 'tf2_msgs', 'launch', 'launch_ros',
+    'builtin_interfaces', 'tf2_msgs', 'simulation_interfaces', 'launch', 'launch_ros',
 )  # fmt: skip
 #: Rooms that may use ROS; those that know nothing of MuJoCo.
 KNOW_ROS = ('ros', 'demo', 'cli')

@@ -8,7 +8,7 @@ import pytest
 from mcap.writer import CompressionType, Writer
 
 from fluid_sim_ros import Simulation, cli, scene_names
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, FluidSimError
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.repetition import Repetition, has_old_transforms
 from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
@@ -176,3 +176,22 @@ def test_tf_of_a_log_from_before_tf_static_is_not_compared(tmp_path):
     assert has_old_transforms(description)
     states = Repetition(description, {}).states
     assert '/tf' not in states and '/sphere/odom' in states
+
+
+@pytest.mark.parametrize(
+    ('place', 'words'),
+    [
+        ([], 'must be a mapping'),
+        ({'entity': 'sphere', 'pose': [1, 2]}, 'needs 7 numbers, or null'),
+        ({'entity': 'sphere', 'twist': ['a'] * 6}, 'must hold numbers'),
+        ({'entity': 'moon', 'pose': None, 'twist': None}, "entity 'moon' is not known"),
+        ({'entity': 'sphere', 'pose': [0] * 7, 'twist': None}, 'quaternion must not be zero'),
+    ],
+)
+def test_a_body_that_an_event_places_wrongly_is_one_line(tmp_path, place, words):
+    sink = RecordingSink(Simulation('sphere'), tmp_path / 'a.mcap')
+    sink.event(place=place)
+    sink.close()
+    with pytest.raises(FluidSimError, match=words) as caught:
+        resimulate(open_log(tmp_path / 'a.mcap'))
+    assert '\n' not in str(caught.value)

@@ -22,6 +22,7 @@ from fluid_sim_ros.recording.run_file import read_json
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
+from fluid_sim_ros.simulation.entities import Entities
 from fluid_sim_ros.step_clock import NEVER, exact
 
 _FRACTION = re.compile(r'\d{1,20}(/\d{1,20})?')
@@ -161,6 +162,13 @@ class Repetition:
             if tick % topic.period == 0:
                 self._topics.data(topic)
 
+    def _place(self, place: Any) -> None:
+        """Set pose and twist of a body, as the node's services did."""
+        if not isinstance(place, dict):
+            raise LogError("an event's place must be a mapping")
+        pose, twist = _numbers(place.get('pose'), 7), _numbers(place.get('twist'), 6)
+        Entities(self.simulation).place(str(place.get('entity')), pose, twist)
+
     def _apply(self, event: Any) -> None:
         simulation = self.simulation
         if not isinstance(event, dict):
@@ -171,6 +179,8 @@ class Repetition:
             simulation.set_thrust(name, [0.0] * len(thrusters))
         if 'timestep' in event:
             simulation.set_timestep(_fraction(event['timestep']))
+        if 'place' in event:
+            self._place(event['place'])
         settings = event.get('settings', {})
         if not isinstance(settings, dict):
             raise LogError("an event's settings must be a mapping")
@@ -180,6 +190,17 @@ class Repetition:
             if not isinstance(settings['enable_wind'], bool):
                 raise LogError("an event's enable_wind must be true or false")
             simulation.enable_wind(settings['enable_wind'])
+
+
+def _numbers(values: Any, count: int) -> list[float] | None:
+    """Return the numbers of an event; null leaves something as it is."""
+    if values is None:
+        return None
+    if not isinstance(values, list) or len(values) != count:
+        raise LogError(f"an event's place needs {count} numbers, or null")
+    if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in values):
+        raise LogError("an event's place must hold numbers")
+    return [float(value) for value in values]
 
 
 def _can_differ(topic: StateTopic) -> bool:

@@ -1,0 +1,1 @@
+"""Services of ROS's package simulation_interfaces, as other simulators offer them, too."""
