@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-full bench lint format docs site coverage wheel clean setup-demo setup-test setup-bench setup-dev setup-docs
+.PHONY: help demo test test-full bench soak lint format docs site coverage wheel clean setup-demo setup-test setup-bench setup-dev setup-docs
 
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
@@ -17,6 +17,7 @@ help:
 	@echo 'make test       the tests; ARGS="-k rov" chooses some'
 	@echo 'make test-full  the tests with their large volumes, then the benchmarks into benchmarks/results/'
 	@echo 'make bench      the benchmarks, short runs into out/bench/ (FULL=1: as in test-full)'
+	@echo 'make soak       30 min at full speed with everything on: what grows (WALL=5: for 5 min)'
 	@echo 'make lint       ruff, mypy, clang-format (make format: let them rewrite the files)'
 	@echo 'make docs       write the tables of the documentation; check its links and pictures'
 	@echo 'make site       the documentation as pages of HTML: out/site/index.html'
@@ -39,6 +40,9 @@ test-full: setup-bench
 
 bench: setup-bench
 	@.ci/bench $(if $(FULL),full,quick)
+
+soak: setup-bench
+	@$(BIN)/python -m benchmarks.robustness.soak $(if $(WALL),--wall $(WALL)) --json out/soak.json
 
 lint: setup-dev
 	$(BIN)/ruff check .
