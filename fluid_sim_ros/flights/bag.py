@@ -10,6 +10,7 @@ import numpy as np
 from fluid_sim_ros.errors import needed_for, printable
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
 from fluid_sim_ros.flights.own_log import run_of, with_schedule
+from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.limits import check_limit
 
 #: Longer arrays (covariances, images) are left out.
@@ -100,7 +101,7 @@ def _mcap(files: list[Path]) -> Iterator[_Message]:
 
     for file in files:
         store = get_typestore(Stores.EMPTY)
-        with file.open('rb') as stream:
+        with open_data(file) as stream:
             reader = make_reader(stream)
             for schema, channel, message in reader.iter_messages():
                 if schema is None or channel.message_encoding != 'cdr':

@@ -1,8 +1,9 @@
 """Results as JSON."""
 
+import errno
 import json
+import os
 import sys
-from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError
 
@@ -29,6 +30,12 @@ def write_json(path: str, result: object) -> None:
         sys.stdout.write(text)
         return
     try:
-        Path(path).write_text(text, encoding='utf-8')
+        # a pipe that nobody reads would be waited for
+        flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC | os.O_NONBLOCK
+        handle = os.open(path, flags, 0o666)
+        os.set_blocking(handle, True)
+        with os.fdopen(handle, 'w', encoding='utf-8') as file:
+            file.write(text)
     except OSError as error:
-        raise ConfigError(f'{path}: cannot be written ({error.strerror})') from None
+        reason = 'nobody reads it' if error.errno == errno.ENXIO else error.strerror
+        raise ConfigError(f'{path}: cannot be written ({reason})') from None

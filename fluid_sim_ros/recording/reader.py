@@ -8,7 +8,6 @@ in memory at a time; what a log may grow to is bounded (``schema.limits``).
 """
 
 import os
-import stat
 import struct
 import zlib
 from pathlib import Path
@@ -36,6 +35,7 @@ from fluid_sim_ros.recording.records import (
     read_chunk_head,
     records,
 )
+from fluid_sim_ros.schema.data_file import open_handle
 from fluid_sim_ros.schema.limits import beyond, expanded_size, limit
 
 #: Faults that are listed one by one.
@@ -71,8 +71,7 @@ def open_log(path: str | Path) -> Log:
                 raise LogError(f'holds {len(inside)} .mcap files, needs one')
             path = inside[0]
     try:
-        # a pipe would be waited for
-        handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+        handle = open_handle(path)
     except (OSError, ValueError) as error:
         reason = getattr(error, 'strerror', None) or str(error)
         raise LogError(f'{printable(str(path), 1000)}: {reason}') from None
@@ -85,8 +84,6 @@ def open_log(path: str | Path) -> Log:
 
 def _scanned(path: Path, handle: int) -> Log:
     status = os.fstat(handle)
-    if not stat.S_ISREG(status.st_mode):
-        raise LogError('not a regular file')
     start = os.pread(handle, len(MAGIC), 0)
     if not start:
         raise LogError('the file is empty')

@@ -7,6 +7,8 @@ import mujoco
 
 from fluid_sim_ros.errors import ModelError
 from fluid_sim_ros.plugins.attached import crashing_replicate, dropped_plugin
+from fluid_sim_ros.scene.named_files import check_named_files
+from fluid_sim_ros.schema.data_file import open_data
 
 
 def read_spec(path: Path, mjcf: str, assets: Mapping[str, bytes]) -> mujoco.MjSpec:
@@ -27,10 +29,16 @@ def read_spec(path: Path, mjcf: str, assets: Mapping[str, bytes]) -> mujoco.MjSp
 
     """
     text = mjcf
-    if not mjcf and path.is_file():
-        text = path.read_text(encoding='utf-8', errors='replace')
+    if not mjcf:
+        try:
+            with open_data(path) as file:
+                text = file.read().decode('utf-8', 'replace')
+        except OSError as error:
+            raise ModelError(f'{path}: {error.strerror}') from None
     if crash := crashing_replicate(text):
         raise ModelError(f'{path}: {crash}')
+    if not assets:
+        check_named_files(path, text)
     try:
         if mjcf:
             # some are read with the text (models, flexes), the others when it is compiled

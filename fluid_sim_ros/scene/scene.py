@@ -24,6 +24,7 @@ from fluid_sim_ros.scene.schedule import Schedule, check_schedule
 from fluid_sim_ros.scene.vehicle import Vehicle, free_bodies, resolve
 from fluid_sim_ros.scene.weather import add_waves, apply_weather
 from fluid_sim_ros.schema.advised import Advised
+from fluid_sim_ros.schema.data_file import kind_of
 from fluid_sim_ros.schema.limits import check_limit
 from fluid_sim_ros.schema.scene import Gait, Home, ScheduledEvent, VehicleFile
 from fluid_sim_ros.schema.settings import RunSettings
@@ -132,7 +133,8 @@ class Scene:
             return cls(**scene_fields(path))
         if path.suffix in ('.xml', '.mjcf') or path.is_file():
             if not path.is_file():
-                raise ConfigError(f'{path}: no such MJCF file')
+                kind = kind_of(path)
+                raise ConfigError(f'{path}: {f"is {kind}, no" if kind else "no such"} MJCF file')
             if path.suffix.lower() not in _MODELS:  # MuJoCo would warn, and write a file of it
                 raise ConfigError(
                     f'{path}: is no model; allowed: {listed(_MODELS)}, or a scene .yaml'

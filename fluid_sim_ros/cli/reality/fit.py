@@ -12,6 +12,7 @@ from fluid_sim_ros.cli.reality.compare import add_model, outputs_of
 from fluid_sim_ros.cli.reality.info import mapping_of
 from fluid_sim_ros.cli.shared import Show, add_command, plain_text, progress_of_parts, unbroken
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.schema.data_file import open_data
 
 if TYPE_CHECKING:
     from fluid_sim_ros.flights.flight import Flight
@@ -109,7 +110,8 @@ def _kept(path: Path | None) -> dict[str, float]:
     if path is None or not path.exists():
         return {}
     try:
-        content = json.loads(path.read_text(encoding='utf-8'))
+        with open_data(path) as file:
+            content = json.loads(file.read())
         return {str(name): float(value) for name, value in content.items()}
     except (ValueError, AttributeError, TypeError, OSError):
         raise ConfigError(f'--resume {path}: holds no values of a fit') from None

@@ -11,6 +11,7 @@ from fluid_sim_ros.new_vehicle.importing.mesh_paths import roots_of
 from fluid_sim_ros.new_vehicle.importing.source import Source, fit_for_topics, stl_bytes
 from fluid_sim_ros.new_vehicle.importing.urdf import read_urdf
 from fluid_sim_ros.new_vehicle.importing.xml_source import expand_xacro, read_xml
+from fluid_sim_ros.scene.named_files import check_named_files
 
 _KINDS = 'a URDF (.urdf, .xacro), an MJCF model (.xml) or a mesh'
 
@@ -128,6 +129,7 @@ def read_mjcf(path: Path, packages: list[Path], body: str | None) -> Source:
     """
     root = read_xml(path)
     _check_includes(path, root, packages)
+    check_named_files(path, path.read_text('utf-8', 'replace'))
     try:
         spec = mujoco.MjSpec.from_file(str(path))
     except (ValueError, mujoco.FatalError) as error:
