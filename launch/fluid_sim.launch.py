@@ -45,9 +45,8 @@ ARGUMENTS = {
     'record': ('', 'MCAP file (.mcap) to record to, or a folder that becomes a bag', None),
     'rviz': ('false', 'RViz with the vehicles of the scene (package rviz2)', SWITCH),
     'rviz_config': ('', 'file of RViz to use instead of one that is made', None),
-    'foxglove': ('false', 'the bridge to Foxglove (package foxglove_bridge)', SWITCH),
-    'foxglove_port': ('8765', 'TCP port of the bridge: ws://localhost:PORT', None),
-    'foxglove_address': ('127.0.0.1', 'address that the bridge listens on', None),
+    'foxglove': ('false', 'the simulator serves Foxglove and Lichtblick on this host', SWITCH),
+    'foxglove_port': ('8765', 'TCP port that viewers connect to: ws://localhost:PORT', None),
     'state_publisher': (
         'false',
         'a robot_state_publisher for each vehicle; the simulator leaves links on /tf to it',
@@ -70,6 +69,8 @@ def nodes(context):
     given = [*files, *scene]
     given += [{'pacing': values['pacing']}] if values['pacing'] else []
     given += [{'record.path': text(values['record'])}] if values['record'] else []
+    if values['foxglove'] == 'true':
+        given += [{'foxglove.port': int(values['foxglove_port'])}]
     publishers = state_publishers(context, values) if values['state_publisher'] == 'true' else []
     given += [{'tf.links': False}] if publishers else []
     simulator = Node(
@@ -142,15 +143,6 @@ def text(value):
     return ParameterValue(value, value_type=str)
 
 
-def included(name, *passed):
-    """Return a launch file of this folder, started where the argument of its name says so."""
-    return IncludeLaunchDescription(
-        PythonLaunchDescriptionSource([ThisLaunchFileDir(), f'/{name}.launch.py']),
-        launch_arguments=[(each, LaunchConfiguration(each)) for each in passed],
-        condition=IfCondition(LaunchConfiguration(name)),
-    )
-
-
 def generate_launch_description():
     arguments = [
         DeclareLaunchArgument(name, default_value=default, description=words, choices=allowed)
@@ -163,7 +155,13 @@ def generate_launch_description():
             SetEnvironmentVariable('ROS_AUTOMATIC_DISCOVERY_RANGE', reach),
             *arguments,
             OpaqueFunction(function=nodes),
-            included('rviz', 'scene', 'namespace', 'rviz_config'),
-            included('foxglove', 'foxglove_port', 'foxglove_address'),
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource([ThisLaunchFileDir(), '/rviz.launch.py']),
+                launch_arguments=[
+                    (name, LaunchConfiguration(name))
+                    for name in ('scene', 'namespace', 'rviz_config')
+                ],
+                condition=IfCondition(LaunchConfiguration('rviz')),
+            ),
         ]
     )

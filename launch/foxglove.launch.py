@@ -1,5 +1,7 @@
 """
-The bridge to Foxglove or Lichtblick for a simulation that runs, on this host alone.
+Foxglove's own bridge, for the topics of all nodes; on this host alone.
+
+The simulator alone needs none: fluid_sim.launch.py foxglove:=true, or its parameter foxglove.port.
 
 ros2 launch fluid_sim_ros foxglove.launch.py
 """
@@ -10,7 +12,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 ARGUMENTS = {
-    'foxglove_port': ('8765', 'TCP port that viewers connect to: ws://localhost:PORT'),
+    'foxglove_port': ('8766', 'TCP port that viewers connect to: ws://localhost:PORT'),
     'foxglove_address': ('127.0.0.1', 'address to listen on; 0.0.0.0 = also from other hosts'),
 }
 

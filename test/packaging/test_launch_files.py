@@ -19,6 +19,7 @@ from test.support.urdf_links import by_urdf_parser
 FILES = sorted((ROOT / 'launch').glob('*.launch.py'))
 MAIN = ROOT / 'launch/fluid_sim.launch.py'
 RVIZ = ROOT / 'launch/rviz.launch.py'
+FOXGLOVE = ROOT / 'launch/foxglove.launch.py'
 #: Packages of ROS that only arguments which are off by default need.
 OPTIONAL = {'rviz2', 'foxglove_bridge', 'robot_state_publisher'}
 
@@ -52,13 +53,14 @@ def test_every_argument_has_a_default_and_is_described(path, monkeypatch):
             assert argument.choices == ('false', 'true'), argument.name
 
 
-def test_the_main_file_lists_the_arguments_of_those_that_it_includes(monkeypatch):
+def test_the_main_file_lists_the_arguments_of_the_one_that_it_includes(monkeypatch):
     launch.install(monkeypatch)
-    listed = {path.name: {a.name: a for a in launch.arguments_of(path)} for path in FILES}
-    main = listed.pop('fluid_sim.launch.py')
-    for arguments in listed.values():
-        for name, argument in arguments.items():
-            assert main[name].default_value == argument.default_value
+    main, included = (
+        {argument.name: argument for argument in launch.arguments_of(path)}
+        for path in (MAIN, RVIZ)
+    )
+    for name, argument in included.items():
+        assert main[name].default_value == argument.default_value
 
 
 def test_its_choices_are_those_of_the_node_and_the_package(monkeypatch, egg_info):
@@ -137,11 +139,16 @@ def test_rviz_takes_a_file_of_the_user_without_a_scene(start):
         start(RVIZ, scene='moon')
 
 
-def test_foxglove_listens_on_this_host_unless_told_otherwise(start):
-    _, bridge = start(foxglove='true')
+def test_foxglove_is_served_by_the_simulator_or_by_its_own_bridge_on_this_host(start):
+    (simulator,) = start(foxglove='true')
+    assert simulator.given == {'foxglove.port': 8765}
+    assert simulator.given.keys() <= parameters.TABLE.keys()
+    (simulator,) = start(foxglove='true', foxglove_port='9000')
+    assert simulator.given == {'foxglove.port': 9000}
+    (bridge,) = start(FOXGLOVE)
     assert bridge.package == 'foxglove_bridge'
-    assert bridge.given == {'port': '8765', 'address': '127.0.0.1', 'use_sim_time': True}
-    _, bridge = start(foxglove='true', foxglove_port='9000', foxglove_address='0.0.0.0')
+    assert bridge.given['address'] == '127.0.0.1' and bridge.given['use_sim_time'] is True
+    (bridge,) = start(FOXGLOVE, foxglove_port='9000', foxglove_address='0.0.0.0')
     assert (bridge.given['port'], bridge.given['address']) == ('9000', '0.0.0.0')
 
 
