@@ -21,7 +21,7 @@ from PIL import Image
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control.gait import JointWave, travelling_wave, wing_beat
-from fluid_sim_ros.recording.pictures.water import add_waves
+from fluid_sim_ros.plugins.drawn_waves import add_waves
 from test.support.paths import DOC
 
 OUT = DOC / 'img'

@@ -20,7 +20,7 @@ from fluid_sim_ros.physics.environment.wave_spectrum import (
     jonswap_spectrum,
     jonswap_waves,
 )
-from fluid_sim_ros.recording.pictures.water import surface_heights
+from fluid_sim_ros.plugins.drawn_waves import surface_heights
 
 
 def draw_elevation(axis: Any) -> None:

@@ -17,7 +17,7 @@ from fluid_sim_ros.physics.environment.waves import (
     regular_waves,
     wave_flow,
 )
-from fluid_sim_ros.recording.pictures.water import surface_heights
+from fluid_sim_ros.plugins.drawn_waves import surface_heights
 from test.support.plugin_models import (
     Array,
     body_plugin,

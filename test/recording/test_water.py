@@ -6,7 +6,7 @@ import numpy as np
 from fluid_sim_ros import Simulation
 from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
 from fluid_sim_ros.physics.environment.waves import wave_surface
-from fluid_sim_ros.recording.pictures.water import add_waves
+from fluid_sim_ros.plugins.drawn_waves import add_waves
 
 
 def patch(name, **options):

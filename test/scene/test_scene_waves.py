@@ -7,7 +7,7 @@ from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.errors import ConfigError, ModelError
 from fluid_sim_ros.physics.environment.wave_spectrum import jonswap_waves
 from fluid_sim_ros.physics.environment.waves import regular_waves, wave_flow, wave_surface
-from fluid_sim_ros.recording.pictures.water import surface_heights
+from fluid_sim_ros.plugins.drawn_waves import surface_heights
 
 SURFACE = """<extension><plugin plugin="fluid_sim.body"/><plugin plugin="fluid_sim.medium">
 <instance name="sea"><config key="density" value="1000"/><config key="surface" value="0"/>

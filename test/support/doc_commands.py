@@ -18,6 +18,7 @@ from test.support.doc_blocks import Block, files_of
 
 #: What is not run, by its beginning, and why.
 NOT_RUN = {
+    'fluid_sim view rov --native': 'needs a display; see test/view/test_native.py',
     'fluid_sim view --node': 'needs a node that runs; see test/view/test_node_view.py',
     'make demo': 'is run by .ci/run, on a clean checkout',
     'make test': 'is run by .ci/run',

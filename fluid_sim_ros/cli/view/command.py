@@ -54,6 +54,10 @@ def add_parser(commands: Any, show: Show) -> None:
         '--port', type=at_least(0, int), default=_PORT, metavar='N',
         help=f'of the page (default {_PORT}); 0: one that is free',
     )  # fmt: skip
+    view.add_argument(
+        '--native', action='store_true',
+        help="MuJoCo's desktop viewer with the arrows, in place of the page",
+    )  # fmt: skip
     view.add_argument('--open', action='store_true', help='open the page in the browser')
     view.add_argument(
         '--pace', type=at_least(0), default=1.0, metavar='X',
@@ -89,7 +93,26 @@ def _view(arguments: argparse.Namespace, show: Show) -> int:
     Pace(arguments.pace)  # refused before anything is opened
     say = plain_lines(PlainConsole(stderr=True))
     with ExitStack() as stack:
-        return _serve(_source(arguments, say, stack), arguments, say, show)
+        source = _source(arguments, say, stack)
+        return (_show_natively if arguments.native else _serve)(source, arguments, say, show)
+
+
+def _show_natively(
+    source: 'Source', arguments: argparse.Namespace, say: Callable[[str], None], show: Show
+) -> int:
+    """Show the source in MuJoCo's desktop viewer until it ends; return the exit code."""
+    from fluid_sim_ros.view.native import NativeView
+
+    view = NativeView(source)
+    say('Space pauses, right arrow steps, Backspace resets; the window or Ctrl-C ends it')
+    view.start()
+    try:
+        interruption = _run(source, arguments)
+    finally:
+        view.close()
+    return _tell(source, arguments, show, {
+        'pictures': view.drawn, 'arrows': view.arrows, 'interrupted': interruption,
+    })  # fmt: skip
 
 
 def _serve(
@@ -101,24 +124,38 @@ def _serve(
 
     page = Page(source, arguments.host, int(arguments.port), say)
     say(f'{page.url}  (Ctrl-C ends it)')
+    try:
+        page.start()
+        if arguments.open and not webbrowser.open(page.url):
+            say('no browser could be opened here; open the address above')
+        interruption = _run(source, arguments)
+    finally:
+        page.close()
+    return _tell(source, arguments, show, {
+        'url': page.url, 'pictures': page.drawn, 'interrupted': interruption,
+    })  # fmt: skip
+
+
+def _run(source: 'Source', arguments: argparse.Namespace) -> str:
+    """Run a source to its end; return the signal that ended it, or nothing."""
     timer = threading.Timer(arguments.end_after or 0.0, source.stop)
     try:
-        with stopped_by_signals(source.stop) as interruption:
-            page.start()
-            if arguments.open and not webbrowser.open(page.url):
-                say('no browser could be opened here; open the address above')
+        with stopped_by_signals() as interruption:
+            interruption.stops(source.stop)
             if arguments.end_after is not None:
                 timer.start()
             source.run()
     finally:
         timer.cancel()
-        page.close()
+    return interruption.name
+
+
+def _tell(
+    source: 'Source', arguments: argparse.Namespace, show: Show, seen: dict[str, Any]
+) -> int:
     frame = source.frame()
-    result = {
-        'shown': source.title, 'url': page.url, 'pictures': page.drawn,
-        'time_s': 0.0 if frame is None else frame.time, 'interrupted': interruption.name,
-    }  # fmt: skip
-    lines = [f'{source.title}: {result["time_s"]:.2f} s, {page.drawn} pictures']
+    result = {'shown': source.title, 'time_s': 0.0 if frame is None else frame.time, **seen}
+    lines = [f'{source.title}: {result["time_s"]:.2f} s, {seen["pictures"]} pictures']
     show(arguments.json, plain_text(lines), result)
     return 0
 

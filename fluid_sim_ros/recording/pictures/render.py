@@ -11,13 +11,14 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins.drawn_arrow import add_arrow
+from fluid_sim_ros.plugins.drawn_waves import add_waves
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.pictures.poses import LogPoses, latest
 from fluid_sim_ros.recording.pictures.renderer import new_renderer
 from fluid_sim_ros.recording.pictures.tracks import Track
-from fluid_sim_ros.recording.pictures.water import add_waves
 from fluid_sim_ros.scene.vehicle import weight_in_air
 from fluid_sim_ros.schema.limits import check_limit
 
@@ -189,21 +190,13 @@ class _Stage:
         start = self._data.xpos[body].copy()
         for term, colour in _ARROWS.items():
             rows = track.wrenches.get(term)
-            if rows is None or scene.ngeom >= scene.maxgeom:
+            if rows is None:
                 continue
             force_w = rotation @ rows[latest(rows[:, 0], time), 1:4]
             along = force_w / weight * _LENGTH * self._extent
             if np.linalg.norm(along) < 1e-3 * self._extent:
                 continue
-            arrow = scene.geoms[scene.ngeom]
-            mujoco.mjv_initGeom(
-                arrow, mujoco.mjtGeom.mjGEOM_ARROW, np.zeros(3), np.zeros(3), np.zeros(9),
-                np.array(colour, dtype=np.float32),
-            )  # fmt: skip
-            mujoco.mjv_connector(
-                arrow, mujoco.mjtGeom.mjGEOM_ARROW, _WIDTH * self._extent, start, start + along
-            )
-            scene.ngeom += 1
+            add_arrow(scene, start, along, _WIDTH * self._extent, np.array(colour))
 
 
 def _extent(model: mujoco.MjModel, base: int) -> float:
