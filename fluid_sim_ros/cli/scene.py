@@ -43,6 +43,7 @@ def examine_scene(scene: str | Path) -> list[Row]:
         Row('scene', 'ok', f'{stated.name}, {_source(stated)}'),
         Row('vehicles', 'ok', listed(simulation.vehicles)),
         Row('flow', 'ok', f'{source}: {_SOURCES[source]}'),
+        Row('stages', 'ok', simulation.stages().words()),
         *(
             Row(f'{name}: terms', 'ok' if terms else 'absent', listed(terms))
             for name, terms in simulation.terms.items()

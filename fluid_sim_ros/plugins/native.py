@@ -60,7 +60,10 @@ class Native:
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``), ``forces`` is
     0, 1 (accelerations) or 2 (wrenches, too); both release the interpreter lock while they run,
-    as all do. ``look(model, data, scratch, bases, count, start, largest, rows)`` raises the
+    as all do. ``lean(model, data, report) -> int`` makes what ``lean_step(lean, n) -> int`` steps
+    as ``step`` does, to the bit, without the work that cannot change the state; ``lean_free``
+    frees it, and ``lean_about(lean, out)`` tells what is left out (``simulation.stages``).
+    ``look(model, data, scratch, bases, count, start, largest, rows)`` raises the
     largest speed, tilt and distance from the start of each base; ``runs`` takes many runs in one
     call (``simulation.batch.BatchRuns``).
     ``set_medium(model, data, wind, current) -> int`` takes addresses of three numbers or 0,
@@ -99,6 +102,18 @@ class Native:
         self.step: Callable[[int, int, int, int], int] = library.fsr_step
         library.fsr_step.argtypes = [pointer, pointer, integer, pointer]
         library.fsr_step.restype = integer
+        self.lean: Callable[[int, int, int], int] = library.fsr_lean
+        library.fsr_lean.argtypes = [pointer] * 3
+        library.fsr_lean.restype = pointer
+        self.lean_free: Callable[[int], None] = library.fsr_lean_free
+        library.fsr_lean_free.argtypes = [pointer]
+        library.fsr_lean_free.restype = None
+        self.lean_step: Callable[[int, int], int] = library.fsr_lean_step
+        library.fsr_lean_step.argtypes = [pointer, integer]
+        library.fsr_lean_step.restype = integer
+        self.lean_about: Callable[[int, int], None] = library.fsr_lean_about
+        library.fsr_lean_about.argtypes = [pointer] * 2
+        library.fsr_lean_about.restype = None
         self.observe: Callable[[int, int, int, int, int, int, int], None] = library.fsr_observe
         library.fsr_observe.argtypes = [
             pointer, pointer, pointer, pointer, integer, integer, pointer,

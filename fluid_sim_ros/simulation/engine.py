@@ -1,5 +1,6 @@
 """MuJoCo's model and data, stepped and observed through the plugin library's C functions."""
 
+import weakref
 from collections.abc import Sequence
 
 import mujoco
@@ -10,6 +11,7 @@ from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.scene.finite import MOST
 from fluid_sim_ros.simulation.energy import EnergyBalance
+from fluid_sim_ros.simulation.stages import Stages
 
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
@@ -81,14 +83,15 @@ class Engine:
         self.data = mujoco.MjData(model)
         self.observed = mujoco.MjData(model)
         library = nat.native()
-        self._step = library.step
+        self._step = library.lean_step
         self._observe = library.observe
         self._raise_largest = library.raise_largest
         self._report = np.zeros(2)
         self._bases = np.array(bases, dtype=np.int32)
         self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
         self.addresses = (model._address, self.data._address)
-        self._step_addresses = (*self.addresses, self._report.ctypes.data)
+        self._lean = library.lean(*self.addresses, self._report.ctypes.data)
+        weakref.finalize(self, library.lean_free, self._lean)
         self._observe_addresses = (
             *self.addresses, self.observed._address, self._bases.ctypes.data, len(bases),
         )  # fmt: skip
@@ -109,8 +112,7 @@ class Engine:
             How many were good; see ``divergence`` for what ended them.
 
         """
-        model, data, report = self._step_addresses
-        return self._step(model, data, n, report)
+        return self._step(self._lean, n)
 
     def divergence(self) -> DivergedError:
         """Return the error that describes the bad step which ended the last ``step``."""
@@ -159,6 +161,10 @@ class Engine:
         """
         self._raise_largest(*self._observe_addresses, start, largest, self._rows_address)
         return self._rows
+
+    def stages(self) -> Stages:
+        """Return which stages of MuJoCo's step the next steps take."""
+        return Stages.of(self._lean, int(self.model.ngeom))
 
     def energy_balance(self) -> EnergyBalance:
         """Return the energy balance at the present state; takes a step on a copy."""

@@ -61,6 +61,8 @@ class Simulation:
     observe, largest, energy_balance
         Methods that return the vehicles as rows of numbers, a watch of their largest values, and
         what the integrator does to the energy; see ``Engine``.
+    stages
+        Method that returns what of MuJoCo's step the next steps take; see ``Stages``.
     wrench
         Method that returns the fluid wrench on a vehicle; see ``VehicleWrenches``.
 
@@ -95,6 +97,7 @@ class Simulation:
         self.model, self.data, self.observed = engine.model, engine.data, engine.observed
         self._engine_step, self.observe = engine.step, engine.observe
         self.energy_balance, self.largest = engine.energy_balance, engine.largest
+        self.stages = engine.stages
         self.wrench = VehicleWrenches(engine, tuple(compiled.vehicles)).wrench
         self.timestep = float(self.model.opt.timestep)
         self._clock = StepClock(self.timestep)

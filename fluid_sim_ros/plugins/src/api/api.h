@@ -7,6 +7,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include "lean/lean.h"
 #include "shared/terms.h"
 
 #define FSR_API extern "C" __attribute__((visibility("default")))
@@ -45,6 +46,9 @@ constexpr ColumnInfo kColumns[] = {
     {"thrust", kThrust, kFirstTerm},
     {"terms", kFirstTerm, kRowWidth},
 };
+
+// As fsr_step; `lean` leaves out what cannot change the state, null: nothing.
+int TakeSteps(const mjModel* m, mjData* d, int n, double* report, Lean* lean);
 
 }  // namespace fluid_sim
 

@@ -5,6 +5,7 @@
 
 #include "api/api.h"
 #include "api/quiet.h"
+#include "api/untimed.h"
 #include "assembly/assembly.h"
 #include "body/stock_terms.h"
 #include "shared/terms.h"
@@ -98,6 +99,7 @@ using namespace fluid_sim;
 // drag and damping take out [W]. The step is taken on `scratch`, in still fluids.
 FSR_API void fsr_energy_feed(const mjModel* m, const mjData* d, mjData* scratch, double* out) {
   const QuietWarnings quiet;
+  const Untimed untimed;
   const StillFluids still(m, scratch);
   mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
   const Balance start = Evaluate(m, scratch);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "api/api.h"
+#include "api/untimed.h"
 #include "assembly/acting.h"
 #include "assembly/assembly.h"
 
@@ -112,6 +113,7 @@ using namespace fluid_sim;
 // accelerations (1), and wrenches too (2), belong to this very state and d is not touched.
 FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                          int count, int forces, double* rows) {
+  const Untimed untimed;
   ObserveMotion(m, d, scratch, bases, count, forces, rows);
   for (int i = 0; i < count; ++i) {
     double* row = rows + kRowWidth * i;
@@ -127,6 +129,7 @@ FSR_API void fsr_observe(const mjModel* m, const mjData* d, mjData* scratch, con
 // not), and fill the motion of `rows`; its flow and forces stay as they are.
 FSR_API void fsr_raise_largest(const mjModel* m, const mjData* d, mjData* scratch, const int* bases,
                                int count, const double* start, double* largest, double* rows) {
+  const Untimed untimed;
   ObserveMotion(m, d, scratch, bases, count, false, rows);
   for (int i = 0; i < count; ++i) {
     const double* row = rows + kRowWidth * i;

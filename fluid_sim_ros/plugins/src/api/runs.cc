@@ -9,10 +9,10 @@
 
 using namespace fluid_sim;
 
-// Fly `runs` runs of `steps` steps, each as fsr_step and fsr_raise_largest do it: from its state
-// (of mjSTATE_INTEGRATION) in `states`, in its wind of `winds` (opt.wind, which the last one leaves
-// in the model), with a look at the `count` bases every `period` steps and at the end. A run ends
-// at its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count *
+// Fly `runs` runs of `steps` steps, each as fsr_lean_step and fsr_raise_largest do it: from its
+// state (of mjSTATE_INTEGRATION) in `states`, in its wind of `winds` (opt.wind, which the last one
+// leaves in the model), with a look at the `count` bases every `period` steps and at the end. A run
+// ends at its first bad step. Per run: done[1] good steps, reports[2] of the bad one, rows[count *
 // width] at the end, largest[3 * count]; and what watchdogs see: sums[3] of fsr_energy_take every
 // `watch` steps and at the end, warned[mjNWARNING] the counts of MuJoCo's warnings, limits[4 *
 // limited] of fsr_limits. The caller has set largest and sums to zero.
@@ -23,6 +23,7 @@ FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, 
   const int size = mj_stateSize(m, mjSTATE_INTEGRATION);
   const int width = kRowWidth;
   std::vector<double> start(3 * count);
+  Lean lean(m);
   for (int run = 0; run < runs; ++run) {
     mj_resetData(m, d);
     mj_setState(m, d, states + run * size, mjSTATE_INTEGRATION);
@@ -34,7 +35,7 @@ FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, 
     int at = 0, watched = 0;
     while (at < steps) {
       const int next = std::min({steps, (at / period + 1) * period, watched + watch});
-      const int good = fsr_step(m, d, next - at, reports + 2 * run);
+      const int good = TakeSteps(m, d, next - at, reports + 2 * run, &lean);
       at += good;
       if (at < next) break;
       if (at % period == 0 || at == steps) {

@@ -6,6 +6,7 @@
 
 #include "api/api.h"
 #include "api/quiet.h"
+#include "api/untimed.h"
 
 namespace fluid_sim {
 namespace {
@@ -39,19 +40,19 @@ int BadDof(const mjModel* m, const mjData* d) {
 }
 
 }  // namespace
-}  // namespace fluid_sim
 
-using namespace fluid_sim;
-
-// Take up to n steps and stop at the first bad one (NaN, or a MuJoCo warning that resets the state
-// silently). Returns the number of good steps; report[0] = time at the start of the bad step,
-// report[1] = its dof or -1.
-FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
+int TakeSteps(const mjModel* m, mjData* d, int n, double* report, Lean* lean) {
   const QuietWarnings quiet;  // a bad step is in the report, MuJoCo need not print it too
+  const Untimed untimed;
+  if (lean) lean->Begin(m);
   const int before = FatalWarnings(d);
   for (int i = 0; i < n; ++i) {
     const mjtNum time = d->time;
-    mj_step(m, d);
+    if (lean) {
+      lean->Step(m, d, i + 1 == n);
+    } else {
+      mj_step(m, d);
+    }
     if (FatalWarnings(d) != before || !AllFinite(d->qpos, m->nq) || !AllFinite(d->qvel, m->nv)) {
       report[0] = time;
       report[1] = BadDof(m, d);
@@ -59,4 +60,53 @@ FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
     }
   }
   return n;
+}
+
+}  // namespace fluid_sim
+
+using namespace fluid_sim;
+
+namespace {
+
+// What Python steps, so that a call hands over one address.
+struct Stepped {
+  const mjModel* m;
+  mjData* d;
+  double* report;
+  Lean lean;
+};
+
+}  // namespace
+
+// Take up to n steps and stop at the first bad one (NaN, or a MuJoCo warning that resets the state
+// silently). Returns the number of good steps; report[0] = time at the start of the bad step,
+// report[1] = its dof or -1. Every step is MuJoCo's, whole.
+FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
+  return TakeSteps(m, d, n, report, nullptr);
+}
+
+// What fsr_lean_step steps; to be freed with fsr_lean_free, before m, d and report.
+FSR_API void* fsr_lean(const mjModel* m, mjData* d, double* report) {
+  return new Stepped{m, d, report, Lean(m)};
+}
+
+FSR_API void fsr_lean_free(void* stepped) { delete static_cast<Stepped*>(stepped); }
+
+// As fsr_step, to the bit, without the work that cannot change the state (lean/lean.h).
+FSR_API int fsr_lean_step(void* stepped, int n) {
+  Stepped* s = static_cast<Stepped*>(stepped);
+  return TakeSteps(s->m, s->d, n, s->report, &s->lean);
+}
+
+// What the steps leave out: out[0] why nothing at all (enum Whole, 0: they do), out[1] when
+// contacts are looked for (enum Contacts), out[2] 1 if there are other constraints, out[3] the
+// geoms that move at every evaluation, out[4] 1 if the last step was without contacts.
+FSR_API void fsr_lean_about(void* stepped, int* out) {
+  Stepped* s = static_cast<Stepped*>(stepped);
+  s->lean.Begin(s->m);
+  out[0] = static_cast<int>(s->lean.whole());
+  out[1] = static_cast<int>(s->lean.contacts());
+  out[2] = s->lean.constraints();
+  out[3] = s->lean.moved_geoms();
+  out[4] = s->lean.off();
 }
