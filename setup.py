@@ -20,7 +20,7 @@ SOURCES = Path(PACKAGE, 'plugins', 'src')
 PLUGIN_LIBRARY = f'{PACKAGE}.plugins.libfluid_sim'
 # No contraction to fused multiply-add: results must not depend on the processor.
 COMPILE_FLAGS = [
-    '-std=c++17', '-O2', '-fPIC', '-fvisibility=hidden', '-ffp-contract=off',
+    '-std=c++17', '-O3', '-fPIC', '-fvisibility=hidden', '-ffp-contract=off',
     '-Wall', '-Wextra', '-Wno-unused-parameter',
 ]  # fmt: skip
 

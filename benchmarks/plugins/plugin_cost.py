@@ -3,8 +3,9 @@ Cost per step of the plugins, as ratios within one run: stock ellipsoid model ag
 
 One free body and 1 to 20 free bodies; stock with nothing, stock ellipsoid fluid, plugin with
 added mass, buoyancy and damping, and with the local ellipsoid drag on top. Variants take turns in
-short blocks, the fastest block counts. Run: ``python -m benchmarks.plugins.plugin_cost [--quick]
-[--json PATH]``.
+short blocks, of which the fastest counts, by the processor time of the thread. And the x500, with
+lag, torque and drag of its rotors, against the stock quadrotor: the same airframe with plain
+motors. Run: ``python -m benchmarks.plugins.plugin_cost [--quick] [--json PATH]``.
 """
 
 import time
@@ -15,6 +16,7 @@ import mujoco
 import numpy as np
 
 from benchmarks.common import RESULTS, arguments, write
+from fluid_sim_ros import Simulation
 from fluid_sim_ros.plugins.native import ROW_WIDTH, native
 from test.support.plugin_models import body_plugin, ellipsoid, free_body, load, world
 
@@ -72,9 +74,9 @@ def microseconds(
         for name, (model, data) in setups.items():
             mujoco.mj_resetData(model, data)
             data.qvel[:] = np.tile([0.3, 0.1, -0.2, 0.4, -0.3, 0.2], model.nv // 6)
-            start = time.perf_counter()
+            start = time.thread_time()
             mujoco.mj_step(model, data, steps)
-            best[name] = min(best[name], (time.perf_counter() - start) / steps * 1e6)
+            best[name] = min(best[name], (time.thread_time() - start) / steps * 1e6)
     return {name: float(value) for name, value in best.items()}
 
 
@@ -88,37 +90,52 @@ def observation(rounds: int) -> dict[str, float]:
         where = (model._address, data._address, scratch._address, bases.ctypes.data, 1, 2)
         best = {'observe': np.inf, 'forward': np.inf}
         for _ in range(rounds):
-            start = time.perf_counter()
+            start = time.thread_time()
             for _ in range(500):
                 native().observe(*where, row.ctypes.data)
-            middle = time.perf_counter()
+            middle = time.thread_time()
             for _ in range(500):
                 mujoco.mj_forward(model, scratch)
-            end = time.perf_counter()
+            end = time.thread_time()
             best['observe'] = min(best['observe'], (middle - start) / 500 * 1e6)
             best['forward'] = min(best['forward'], (end - middle) / 500 * 1e6)
         out |= {f'{variant}: {name}': float(value) for name, value in best.items()}
     return out
 
 
+def rotors(integrator: str, rounds: int) -> dict[str, float]:
+    """Return microseconds per step of the x500 and of the stock quadrotor, and their ratio."""
+    simulations = {name: Simulation(name, integrator=integrator) for name in ('quadrotor', 'x500')}
+    best = dict.fromkeys(simulations, np.inf)
+    for _ in range(rounds):
+        for name, simulation in simulations.items():
+            simulation.reset()
+            start = time.thread_time()
+            mujoco.mj_step(simulation.model, simulation.data, 200)
+            best[name] = min(best[name], (time.thread_time() - start) / 200 * 1e6)
+    found = {f'{name}_us': float(value) for name, value in best.items()}
+    return {**found, 'ratio': best['x500'] / best['quadrotor']}
+
+
 def measure(rounds: int) -> dict[str, Any]:
     """Return microseconds and ratios."""
-    result: dict[str, Any] = {'one_body': {}, 'bodies': {}}
+    result: dict[str, Any] = {'one_body': {}, 'rotors': {}, 'bodies': {}}
     result['observation_microseconds'] = observation(rounds)
     for integrator in ('RK4', 'implicitfast'):
         setups = {name: model_of(name, integrator, 1) for name in VARIANTS}
-        cost = microseconds(setups, 2000, rounds)
+        cost = microseconds(setups, 500, 2 * rounds)
         result['one_body'][integrator] = {
             'microseconds': cost,
             'ratio_to_stock_ellipsoid': {
                 name: value / cost['stock ellipsoid'] for name, value in cost.items()
             },
         }
+        result['rotors'][integrator] = rotors(integrator, 3 * rounds)
         counts = (1, 5, 10, 20)
         many = {}
         for variant in ('stock ellipsoid', 'added mass + buoyancy + damping'):
             setups = {str(n): model_of(variant, integrator, n) for n in counts}
-            cost = microseconds(setups, 500, rounds)
+            cost = microseconds(setups, 100, 2 * rounds)
             slope = cost['20'] / 20 / (cost['10'] / 10)
             many[variant] = {
                 'microseconds_per_body': {n: value / int(n) for n, value in cost.items()},
@@ -158,6 +175,7 @@ def main() -> None:
             print(
                 f'{integrator:13} {name:36} {values["microseconds"][name]:6.2f} us {ratio:5.2f}x'
             )
+        print(f'{integrator:13} x500 over quadrotor {result["rotors"][integrator]["ratio"]:.2f}x')
         for name, many in result['bodies'][integrator].items():
             print(f'{"":13} {name}: per body 20/10 {many["per_body_20_over_10"]:.2f}, '
                   f'20/1 {many["per_body_20_over_1"]:.2f}')  # fmt: skip

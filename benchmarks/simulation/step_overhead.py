@@ -11,8 +11,7 @@ constraint acts, .97 or more elsewhere.
 
 import ctypes
 import statistics
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -20,7 +19,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from benchmarks.common import arguments, write
+from benchmarks.common import arguments, thread_seconds, write
 from fluid_sim_ros import Simulation, scene_names
 
 INTEGRATORS = ('RK4', 'implicitfast')
@@ -41,13 +40,6 @@ def clock(*, kept: bool) -> Iterator[None]:
         yield
     finally:
         pointer.value = was
-
-
-def thread_seconds(work: Callable[[], object]) -> float:
-    """Return the processor time that a call takes in this thread [s]."""
-    start = time.thread_time()
-    work()
-    return time.thread_time() - start
 
 
 def measure(scene: str, integrator: str, rounds: int, calls: int) -> dict[str, Any]:

@@ -27,15 +27,24 @@ struct DragEllipsoid {
   mjtNum scale;  // MuJoCo's interaction coefficient
 };
 
+// Of a body's rigid inertia: the model's numbers and the matrix that they make.
+struct RigidInertia {
+  mjtNum mass = -1;  // none yet
+  mjtNum diagonal[3], center[3], quat[4];
+  mjtNum matrix[36];
+};
+
 // "Body axes" are those of the body frame (not of its inertia); points are from its origin.
 struct BodyFluid {
   int id = -1;                  // MuJoCo body
+  mutable RigidInertia rigid;   // kept from one evaluation to the next
   int free_dof = -1;            // first dof when the body alone makes up a free tree, or -1
   mjtNum point[3] = {0, 0, 0};  // reference point O of added mass and damping [m]
 
   bool added_mass = false;
   bool per_density = false;  // `a` is per unit density (auto) or absolute (numbers)
   mjtNum a[36] = {0};        // A about O for a body wholly in the lower fluid
+  bool diagonal_a = false;
   mjtNum builtin[36] = {0};  // of MuJoCo's own convective term, per unit density, about O
   bool has_builtin = false;
 

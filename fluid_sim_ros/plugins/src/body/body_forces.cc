@@ -18,6 +18,18 @@ mjtNum AddedMassScale(const BodyFluid& body, const Flow& flow, mjtNum lower_dens
   return flow.lower ? 1 : 0;
 }
 
+// out = A x
+void MultiplyAddedMass(mjtNum out[6], const BodyFluid& body, const mjtNum x[6]) {
+  if (!body.diagonal_a) return MultiplyMatrix6(out, body.a, x);
+  for (int i = 0; i < 6; ++i) out[i] = body.a[7 * i] * x[i];
+}
+
+// target += scale A
+void AddAddedMassMatrix(mjtNum target[36], const BodyFluid& body, mjtNum scale) {
+  if (!body.diagonal_a) return AddScaled36(target, body.a, scale);
+  for (int i = 0; i < 6; ++i) target[7 * i] += scale * body.a[7 * i];
+}
+
 // A [w x v - R'Jdot_p q' + R'Du/Dt ; -R'Jdot_r q'] + convection, for nu relative to the flow.
 // The part A q'' of the acceleration goes into the inertia matrix.
 void AddAddedMass(const mjModel* m, const BodyFluid& body, const Flow& flow, const Motion& motion,
@@ -25,16 +37,16 @@ void AddAddedMass(const mjModel* m, const BodyFluid& body, const Flow& flow, con
                   BodyForces* out) {
   const mjtNum scale = flow.weight * AddedMassScale(body, flow, lower_density);
   mjtNum rate[6], push[6], momentum[6];
-  mju_cross(rate, nu + 3, nu);
+  Cross3(rate, nu + 3, nu);
   for (int i = 0; i < 3; ++i) {
     rate[i] += flow_accel_b[i] - motion.bias[i];
     rate[3 + i] = -motion.bias[3 + i];
   }
-  MultiplyMatrix6(push, body.a, rate);
-  MultiplyMatrix6(momentum, body.a, nu);
+  MultiplyAddedMass(push, body, rate);
+  MultiplyAddedMass(momentum, body, nu);
   mju_addToScl(out->term[kAddedMass], push, scale, 6);
   mju_scl(momentum, momentum, scale, 6);
-  AddScaled36(out->inertia, body.a, scale);
+  AddAddedMassMatrix(out->inertia, body, scale);
   out->fluid_energy += 0.5 * mju_dot(momentum, nu, 6);
   if (body.has_builtin && (m->opt.density > 0 || m->opt.viscosity > 0)) {
     mjtNum stock[6];  // MuJoCo applies the convection of its own A already
@@ -49,16 +61,16 @@ void AddAddedMass(const mjModel* m, const BodyFluid& body, const Flow& flow, con
 void AddSlamming(const BodyFluid& body, const Flow& flow, const mjtNum nu[6], mjtNum rate,
                  bool secant, BodyForces* out) {
   mjtNum momentum[6];
-  MultiplyMatrix6(momentum, body.a, nu);
+  MultiplyAddedMass(momentum, body, nu);
   mju_addToScl(out->term[kAddedMass], momentum, -rate, 6);
-  if (secant) AddScaled36(out->secant, body.a, rate);
+  if (secant) AddAddedMassMatrix(out->secant, body, rate);
 }
 
 // Power that leaves with the surface: on entry slamming takes twice what the flow gains, on exit
 // the flow that is left behind keeps its energy. nu'A nu/2 at the rate of A either way.
 mjtNum SurfaceLoss(const BodyFluid& body, const mjtNum nu[6], mjtNum rate) {
   mjtNum momentum[6];
-  MultiplyMatrix6(momentum, body.a, nu);
+  MultiplyAddedMass(momentum, body, nu);
   return 0.5 * rate * mju_dot(momentum, nu, 6);
 }
 
@@ -70,17 +82,17 @@ void AddBuoyancy(const mjModel* m, const BodyFluid& body, const Flow& flow,
   const mjtNum scale = body.volume / body.solid_volume;
   const mjtNum volume = flow.weight * body.volume;
   mjtNum moment[3], force[3] = {0, 0, 0}, gravity[3];
-  mju_copy3(moment, immersion.moment);
-  if (!flow.lower) mju_sub3(moment, body.solid_moment, immersion.moment);
-  mju_scl3(moment, moment, scale);
-  mju_addToScl3(moment, body.center_shift, volume);
-  mju_addToScl3(moment, body.point, -volume);  // volume times centre, from O
+  Copy3(moment, immersion.moment);
+  if (!flow.lower) Subtract3(moment, body.solid_moment, immersion.moment);
+  Scale3(moment, moment, scale);
+  AddScaled3(moment, body.center_shift, volume);
+  AddScaled3(moment, body.point, -volume);  // volume times centre, from O
   if (!(m->opt.disableflags & mjDSBL_GRAVITY)) {
     RotateBack(gravity, motion.rotation, m->opt.gravity);
-    mju_scl3(force, gravity, -flow.density);
+    Scale3(force, gravity, -flow.density);
   }
-  mju_addToScl3(force, flow_accel_b, flow.density);
-  mju_addToScl3(out->term[kBuoyancy], force, volume);
+  AddScaled3(force, flow_accel_b, flow.density);
+  AddScaled3(out->term[kBuoyancy], force, volume);
   AddCross(out->term[kBuoyancy] + 3, moment, force);
 }
 
@@ -91,8 +103,8 @@ void AddAtPart(const mjtNum rotation[9], const mjtNum arm[3], const Wrench& loca
   Rotate(force, rotation, local.force);
   Rotate(torque, rotation, local.torque);
   AddCross(torque, arm, force);
-  mju_addToScl3(target, force, scale);
-  mju_addToScl3(target + 3, torque, scale);
+  AddScaled3(target, force, scale);
+  AddScaled3(target + 3, torque, scale);
 }
 
 void AddEllipsoidForces(const BodyFluid& body, const DragEllipsoid& part, const Flow& flow,
@@ -100,8 +112,8 @@ void AddEllipsoidForces(const BodyFluid& body, const DragEllipsoid& part, const 
   const FluidConstants fluid{flow.density, flow.viscosity};
   const mjtNum scale = part.scale * flow.weight;
   mjtNum arm[3], velocity[3], v[3], w[3];
-  mju_sub3(arm, part.position, body.point);
-  mju_copy3(velocity, nu);
+  Subtract3(arm, part.position, body.point);
+  Copy3(velocity, nu);
   AddCross(velocity, nu + 3, arm);
   RotateBack(v, part.rotation, velocity);
   RotateBack(w, part.rotation, nu + 3);
@@ -130,8 +142,8 @@ void AddInertiaBoxForces(const mjModel* m, const BodyFluid& body, const Flow& fl
   mjtNum edges[3], rotation[9], arm[3], velocity[3], v[3], w[3];
   EquivalentInertiaBox(m, body.id, edges);
   mju_quat2Mat(rotation, m->body_iquat + 4 * body.id);
-  mju_sub3(arm, m->body_ipos + 3 * body.id, body.point);
-  mju_copy3(velocity, nu);
+  Subtract3(arm, m->body_ipos + 3 * body.id, body.point);
+  Copy3(velocity, nu);
   AddCross(velocity, nu + 3, arm);
   RotateBack(v, rotation, velocity);
   RotateBack(w, rotation, nu + 3);
@@ -177,14 +189,14 @@ Motion BodyMotion(const mjModel* m, const mjData* d, const BodyFluid& body) {
   out.rotation = d->xmat + 9 * body.id;
   mjtNum arm_w[3];
   Rotate(arm_w, out.rotation, body.point);
-  mju_add3(out.point_w, d->xpos + 3 * body.id, arm_w);
+  Add3(out.point_w, d->xpos + 3 * body.id, arm_w);
   if (body.free_dof >= 0) {  // at rest in qacc, O only turns: w x (w x r)
     const mjtNum *qvel = d->qvel + body.free_dof, *w = qvel + 3;
     mjtNum swing[3];
     RotateBack(out.velocity, out.rotation, qvel);
-    mju_copy3(out.velocity + 3, w);
-    mju_cross(swing, w, body.point);
-    mju_addTo3(out.velocity, swing);
+    Copy3(out.velocity + 3, w);
+    Cross3(swing, w, body.point);
+    AddTo3(out.velocity, swing);
     mju_zero(out.bias, 6);
     AddCross(out.bias, w, swing);
     return out;
@@ -199,10 +211,10 @@ Motion BodyMotion(const mjModel* m, const mjData* d, const BodyFluid& body) {
   for (int dof = last; dof >= 0; dof = m->dof_parentid[dof]) {
     mju_addToScl(accel, d->cdof_dot + 6 * dof, d->qvel[dof], 6);
   }
-  mju_sub3(arm, out.point_w, com);
-  mju_copy3(v_w, spatial + 3);
+  Subtract3(arm, out.point_w, com);
+  Copy3(v_w, spatial + 3);
   AddCross(v_w, spatial, arm);
-  mju_copy3(a_w, accel + 3);
+  Copy3(a_w, accel + 3);
   AddCross(a_w, accel, arm);
   AddCross(a_w, spatial, v_w);  // from the spatial to the point's acceleration
   RotateBack(out.velocity, out.rotation, v_w);
@@ -231,7 +243,7 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
     RotateBack(flow_b, motion.rotation, flow.velocity);
     RotateBack(flow_accel_b, motion.rotation, flow.acceleration);
     mju_copy(nu, motion.velocity, 6);
-    mju_subFrom3(nu, flow_b);
+    SubtractFrom3(nu, flow_b);
     if (body.added_mass) {
       AddAddedMass(m, body, flow, motion, nu, flow_accel_b, lower_density, out);
       if (slamming) AddSlamming(body, flow, nu, growth[i], secant, out);
@@ -241,7 +253,7 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
     if (body.buoyant) AddBuoyancy(m, body, flow, immersion, motion, flow_accel_b, out);
     // a rotational gust is felt by drag and damping; the added mass is that of a uniform flow
     RotateBack(spin_b, motion.rotation, flow.spin);
-    mju_subFrom3(nu + 3, spin_b);
+    SubtractFrom3(nu + 3, spin_b);
     if (body.damping.any) AddVehicleDamping(m, medium, body, flow, nu, secant, out);
     if (body.drag == Drag::kInertiaBox) AddInertiaBoxForces(m, body, flow, nu, secant, out);
     if (body.drag != Drag::kEllipsoid) continue;

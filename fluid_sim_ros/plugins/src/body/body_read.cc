@@ -184,6 +184,10 @@ bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bo
   }
   out->free_dof = FreeTreeDof(m, body);
   if (!ReadHistory(m, config, medium, instance, out)) return false;
+  out->diagonal_a = IsDiagonal6(out->a);
+  Damping& damping = out->damping;
+  damping.diagonal =
+      damping.cross.empty() && IsDiagonal6(damping.linear) && IsDiagonal6(damping.quadratic);
   return CheckBody(m, config, medium, *out);
 }
 

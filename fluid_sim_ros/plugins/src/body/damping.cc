@@ -24,6 +24,15 @@ void TakeOffConvection(const mjtNum a[36], std::vector<CrossTerm>* terms) {
 
 void AddDamping(const Damping& damping, const mjtNum nu[6], mjtNum linear_share,
                 mjtNum quadratic_share, mjtNum out[6], mjtNum* secant) {
+  if (damping.diagonal) {
+    for (int i = 0; i < 6; ++i) {
+      const mjtNum k = linear_share * damping.linear[7 * i] +
+                       quadratic_share * damping.quadratic[7 * i] * std::abs(nu[i]);
+      out[i] -= k * nu[i];
+      if (secant) secant[7 * i] += k;
+    }
+    return;
+  }
   mjtNum matrix[36], force[6];
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {

@@ -19,6 +19,7 @@ struct CrossTerm {
 // wholly in the lower fluid.
 struct Damping {
   bool any = false;
+  bool diagonal = false;       // alone: most published sets
   mjtNum linear[36] = {0};     // [N s/m], [N s], [N m s]
   mjtNum quadratic[36] = {0};  // column j multiplies |nu_j| nu_j
   std::vector<CrossTerm> cross;

@@ -1,5 +1,7 @@
 #include "body/inertia.h"
 
+#include <algorithm>
+
 #include "shared/spatial.h"
 
 namespace fluid_sim {
@@ -14,20 +16,33 @@ int ChainDof(const mjModel* m, int body) {
 // Vector from the tree's centre of mass, where cdof refers to, to O, in world axes.
 void ComArm(const mjModel* m, const mjData* d, const BodyFluid& body, const Motion& motion,
             mjtNum arm[3]) {
-  mju_sub3(arm, motion.point_w, d->subtree_com + 3 * m->body_rootid[body.id]);
+  Subtract3(arm, motion.point_w, d->subtree_com + 3 * m->body_rootid[body.id]);
 }
 
-// Rigid inertia of a body about its frame's origin, in body axes.
-void RigidMatrix(const mjModel* m, const BodyFluid& body, mjtNum out[36]) {
+// Rigid inertia of a body about its frame's origin, in body axes. Kept until one of its numbers
+// in the model changes.
+const mjtNum* RigidMatrix(const mjModel* m, const BodyFluid& body) {
   const mjtNum mass = m->body_mass[body.id];
   const mjtNum *diagonal = m->body_inertia + 3 * body.id, *center = m->body_ipos + 3 * body.id;
+  const mjtNum* quat = m->body_iquat + 4 * body.id;
+  RigidInertia& kept = body.rigid;
+  mjtNum* out = kept.matrix;
+  if (mass == kept.mass && std::equal(diagonal, diagonal + 3, kept.diagonal) &&
+      std::equal(center, center + 3, kept.center) && std::equal(quat, quat + 4, kept.quat)) {
+    return out;
+  }
+  kept.mass = mass;
+  std::copy(diagonal, diagonal + 3, kept.diagonal);
+  std::copy(center, center + 3, kept.center);
+  std::copy(quat, quat + 4, kept.quat);
   mjtNum rotation[9], scaled[9], inertia[9];
-  mju_quat2Mat(rotation, m->body_iquat + 4 * body.id);
+  mju_quat2Mat(rotation, quat);
   for (int i = 0; i < 9; ++i) scaled[i] = rotation[i] * diagonal[i % 3];
   MultiplyTransposed3(inertia, scaled, rotation);
   mju_zero(out, 36);
   for (int i = 0; i < 9; ++i) out[6 * (3 + i / 3) + 3 + i % 3] = inertia[i];
   AddIsotropic6(out, mass, 0, center);
+  return out;
 }
 
 }  // namespace
@@ -37,7 +52,7 @@ void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motio
   mjtNum force_w[3], torque[3];
   Rotate(force_w, motion.rotation, wrench);
   if (body.free_dof >= 0) {  // world force, torque about the origin in body axes
-    mju_copy3(torque, wrench + 3);
+    Copy3(torque, wrench + 3);
     AddCross(torque, body.point, wrench);
     for (int i = 0; i < 6; ++i) {
       const mjtNum value = i < 3 ? force_w[i] : torque[i - 3];
@@ -52,7 +67,7 @@ void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motio
   AddCross(torque, arm, force_w);
   for (int dof = ChainDof(m, body.id); dof >= 0; dof = m->dof_parentid[dof]) {
     const mjtNum* axis = d->cdof + 6 * dof;
-    const mjtNum value = mju_dot3(axis, torque) + mju_dot3(axis + 3, force_w);
+    const mjtNum value = Dot3(axis, torque) + Dot3(axis + 3, force_w);
     d->qfrc_fluid[dof] += value;
     d->qfrc_passive[dof] += value;
   }
@@ -62,16 +77,22 @@ void WriteFreeInertia(const mjModel* m, mjData* d, const BodyFluid& body, const 
                       const mjtNum g[36]) {
   mjtNum total[36], shifted[36];
   const mjtNum to_origin[3] = {-body.point[0], -body.point[1], -body.point[2]};
-  RigidMatrix(m, body, total);
+  mju_copy(total, RigidMatrix(m, body), 36);
   ShiftMatrix6(shifted, g, to_origin);
   AddScaled36(total, shifted, 1);
   // velocities of the free joint: linear in world axes, angular in body axes
-  mjtNum linear[9], angular_linear[9], half[9], block[9];
+  mjtNum linear[9], angular_linear[9] = {0}, half[9], block[9];
   for (int i = 0; i < 9; ++i) block[i] = total[6 * (i / 3) + i % 3];
   Multiply3(half, motion.rotation, block);
-  MultiplyTransposed3(linear, half, motion.rotation);
-  for (int i = 0; i < 9; ++i) block[i] = total[6 * (3 + i / 3) + i % 3];
-  MultiplyTransposed3(angular_linear, block, motion.rotation);
+  for (int i = 0; i < 3; ++i) {  // the lower triangle of half R'
+    for (int j = 0; j <= i; ++j) linear[3 * i + j] = Dot3(half + 3 * i, motion.rotation + 3 * j);
+  }
+  bool couples = false;
+  for (int i = 0; i < 9; ++i) {
+    block[i] = total[6 * (3 + i / 3) + i % 3];
+    couples |= block[i] != 0;
+  }
+  if (couples) MultiplyTransposed3(angular_linear, block, motion.rotation);
   for (int i = 0; i < 6; ++i) {
     const int dof = body.free_dof + i;
     mjtNum* row = d->M + m->M_rowadr[dof];
@@ -92,18 +113,18 @@ void AddChainInertia(const mjModel* m, mjData* d, const BodyFluid& body, const M
   mjtNum turned[36], at_com[36], offset[3];
   RotateMatrix6(turned, g, motion.rotation);
   ComArm(m, d, body, motion, offset);
-  mju_scl3(offset, offset, -1);
+  Scale3(offset, offset, -1);
   ShiftMatrix6(at_com, turned, offset);
   for (int i = ChainDof(m, body.id); i >= 0; i = m->dof_parentid[i]) {
     mjtNum axis[6], column[6];  // (linear, angular) motion of dof i and its momentum
-    mju_copy3(axis, d->cdof + 6 * i + 3);
-    mju_copy3(axis + 3, d->cdof + 6 * i);
+    Copy3(axis, d->cdof + 6 * i + 3);
+    Copy3(axis + 3, d->cdof + 6 * i);
     MultiplyMatrix6(column, at_com, axis);
     // row i of the lower triangle holds exactly the chain from the root to i
     mjtNum* entry = d->M + m->M_rowadr[i] + m->M_rownnz[i];
     for (int j = i; j >= 0; j = m->dof_parentid[j]) {
       const mjtNum* other = d->cdof + 6 * j;
-      *--entry += mju_dot3(other + 3, column) + mju_dot3(other, column + 3);
+      *--entry += Dot3(other + 3, column) + Dot3(other, column + 3);
     }
   }
 }
@@ -112,8 +133,8 @@ void PointAcceleration(const mjModel* m, const mjData* d, const BodyFluid& body,
                        const Motion& motion, mjtNum out[6]) {
   mjtNum linear[3] = {0, 0, 0}, angular[3] = {0, 0, 0}, arm[3];
   for (int dof = ChainDof(m, body.id); dof >= 0; dof = m->dof_parentid[dof]) {
-    mju_addToScl3(angular, d->cdof + 6 * dof, d->qacc[dof]);
-    mju_addToScl3(linear, d->cdof + 6 * dof + 3, d->qacc[dof]);
+    AddScaled3(angular, d->cdof + 6 * dof, d->qacc[dof]);
+    AddScaled3(linear, d->cdof + 6 * dof + 3, d->qacc[dof]);
   }
   ComArm(m, d, body, motion, arm);
   AddCross(linear, angular, arm);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shared/point_motion.h"
+#include "shared/spatial.h"
 
 namespace fluid_sim {
 namespace {
@@ -86,9 +87,9 @@ Flow FluidAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower
   out.weight = weight;
   out.density = medium.density[layer];
   out.viscosity = medium.viscosity[layer];
-  mju_copy3(out.velocity, sample.velocity);
+  Copy3(out.velocity, sample.velocity);
   MaterialDerivative(sample, out.acceleration);
-  mju_copy3(out.spin, sample.spin);
+  Copy3(out.spin, sample.spin);
   return out;
 }
 
@@ -118,7 +119,7 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
             const mjtNum point_w[3], mjtNum wet, Flow out[2]) {
   if (!medium.in_charge()) {
     out[0] = {true, 1, m->opt.density, m->opt.viscosity, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    mju_copy3(out[0].velocity, m->opt.wind);
+    Copy3(out[0].velocity, m->opt.wind);
     return 1;
   }
   if (!medium.has_surface) {
@@ -128,7 +129,7 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
   // a cut body's point may lie in the other fluid: take the flow at the surface then
   int count = 0;
   mjtNum point[3];
-  mju_copy3(point, point_w);
+  Copy3(point, point_w);
   if (wet > 0) {
     if (point_w[2] > medium.surface - medium.waves.reach) {
       point[2] = std::min(point_w[2], SurfaceHeight(medium, d, point_w));

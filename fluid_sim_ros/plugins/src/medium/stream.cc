@@ -46,7 +46,7 @@ bool ReadStream(const Config& config, const std::string& name, mjtNum timestep, 
   const std::string slew = name + "_slew", profile = name + "_profile", datum = name + "_datum";
   std::vector<mjtNum> numbers;
   if (!config.Numbers(name.c_str(), {3}, "3 numbers [m/s]", &numbers)) return false;
-  if (!numbers.empty()) mju_copy3(stream->initial, numbers.data());
+  if (!numbers.empty()) Copy3(stream->initial, numbers.data());
   return config.Number(slew.c_str(), 0, kInfinity, "a number >= 0 [m/s^2] (0: no limit)",
                        &stream->slew) &&
          config.Number(datum.c_str(), -kInfinity, kInfinity, "a height in world z [m]",
@@ -73,8 +73,8 @@ void AddStream(const Stream& stream, const StreamDrive& drive, mjtNum time, mjtN
     if (stream.noise.count) {
       mjtNum value[kAxes], rate[kAxes];
       SampleNoise(stream.noise, drive.seed, drive.id, time, drive.noise, value, rate);
-      mju_addTo3(velocity, value);
-      mju_addTo3(derivative, rate);
+      AddTo3(velocity, value);
+      AddTo3(derivative, rate);
     }
   }
   const ProfileValue profile = stream.profile.At(z - stream.datum);
@@ -96,23 +96,23 @@ void StreamVelocity(const Stream& stream, const mjtNum* state, mjtNum time, mjtN
   if (square <= 0 || stream.slew <= 0) return;
   const mjtNum distance = std::sqrt(square);
   if (elapsed * stream.slew >= distance) return;
-  mju_scl3(derivative, way, stream.slew / distance);
-  mju_copy3(velocity, state + kStart);
-  mju_addToScl3(velocity, derivative, elapsed);
+  Scale3(derivative, way, stream.slew / distance);
+  Copy3(velocity, state + kStart);
+  AddScaled3(velocity, derivative, elapsed);
 }
 
 void SetTarget(const Stream& stream, mjtNum* state, mjtNum time, const mjtNum target[3]) {
   if (mju_dist3(state + kTarget, target) == 0) return;  // set again: keep going the same way
   mjtNum velocity[3], derivative[3];
   StreamVelocity(stream, state, time, velocity, derivative);
-  mju_copy3(state + kStart, velocity);
-  mju_copy3(state + kTarget, target);
+  Copy3(state + kStart, velocity);
+  Copy3(state + kTarget, target);
   state[kStartTime] = time;
 }
 
 void ResetStream(const Stream& stream, mjtNum* state) {
-  mju_copy3(state + kTarget, stream.initial);
-  mju_copy3(state + kStart, stream.initial);
+  Copy3(state + kTarget, stream.initial);
+  Copy3(state + kStart, stream.initial);
   state[kStartTime] = 0;
 }
 

@@ -15,6 +15,16 @@ void PointVelocity(const mjModel* m, const mjData* d, int body, const mjtNum poi
 void AddGeneralizedForce(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                          const mjtNum force_w[3], const mjtNum torque_w[3], mjtNum* target);
 
+// A wrench whose torque is of the fluid, and in part not: `other` goes into all passive forces
+// only.
+struct PassiveWrench {
+  const mjtNum *force_w, *torque_w, *other_torque_w;
+};
+
+// As AddGeneralizedForce into d->qfrc_fluid, and with the other torque into d->qfrc_passive.
+void AddPassiveForce(const mjModel* m, mjData* d, int body, const mjtNum point_w[3],
+                     const PassiveWrench& wrench);
+
 // The tree of the body sleeps: its passive forces are not wanted.
 bool IsAsleep(const mjModel* m, const mjData* d, int body);
 

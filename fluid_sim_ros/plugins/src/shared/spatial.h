@@ -9,7 +9,46 @@
 
 namespace fluid_sim {
 
-// The small products are inline: they make up most of an evaluation.
+// The small sums and products are inline: they make up most of an evaluation. Those that MuJoCo has
+// as functions (mju_copy3, mju_dot3, ...) are the same to the bit.
+
+inline void Copy3(mjtNum out[3], const mjtNum x[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = x[i];
+}
+
+// out = a + b, out = a - b, out = s x
+inline void Add3(mjtNum out[3], const mjtNum a[3], const mjtNum b[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = a[i] + b[i];
+}
+
+inline void Subtract3(mjtNum out[3], const mjtNum a[3], const mjtNum b[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = a[i] - b[i];
+}
+
+inline void Scale3(mjtNum out[3], const mjtNum x[3], mjtNum s) {
+  for (int i = 0; i < 3; ++i) out[i] = x[i] * s;
+}
+
+// out += x, out -= x
+inline void AddTo3(mjtNum out[3], const mjtNum x[3]) {
+  for (int i = 0; i < 3; ++i) out[i] += x[i];
+}
+
+inline void SubtractFrom3(mjtNum out[3], const mjtNum x[3]) {
+  for (int i = 0; i < 3; ++i) out[i] -= x[i];
+}
+
+inline mjtNum Dot3(const mjtNum a[3], const mjtNum b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// out = a x b
+inline void Cross3(mjtNum out[3], const mjtNum a[3], const mjtNum b[3]) {
+  const mjtNum x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+  out[0] = x;
+  out[1] = y;
+}
 
 // out += b x c
 inline void AddCross(mjtNum out[3], const mjtNum b[3], const mjtNum c[3]) {
@@ -59,6 +98,14 @@ inline void MultiplyMatrix6(mjtNum out[6], const mjtNum a[36], const mjtNum x[6]
     out[i] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3] + row[4] * x[4] +
              row[5] * x[5];
   }
+}
+
+// Nothing beside the diagonal.
+inline bool IsDiagonal6(const mjtNum a[36]) {
+  for (int i = 0; i < 36; ++i) {
+    if (i % 7 != 0 && a[i] != 0) return false;
+  }
+  return true;
 }
 
 // target += scale * source, 36 numbers

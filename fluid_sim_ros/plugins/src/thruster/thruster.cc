@@ -35,28 +35,10 @@ mjtNum ReadCommand(const mjModel* m, const mjData* d, int actuator, bool* satura
   return kept;
 }
 
-// Pulse width [us] of a command in -1..1.
-mjtNum PulseWidth(const mjtNum pwm[3], mjtNum command) {
-  return pwm[1] + command * (command < 0 ? pwm[1] - pwm[0] : pwm[2] - pwm[1]);
-}
-
-// Speed beyond the dead zone, linear in the pulse width.
-mjtNum SpeedForPulse(const Thruster& t, mjtNum pulse) {
-  if (pulse > t.dead[1]) return t.limit[0] * (pulse - t.dead[1]) / (t.pwm[2] - t.dead[1]);
-  if (pulse < t.dead[0]) return -t.limit[1] * (t.dead[0] - pulse) / (t.dead[0] - t.pwm[0]);
-  return 0;
-}
-
-LaggedSpeed PresentSpeed(const mjModel* m, const mjData* d, const Thruster& t, mjtNum target) {
-  if (!t.lagged) return {target, 0};
-  const mjtNum* act = d->act + m->actuator_actadr[t.thrust];
-  return Follow(t.lag, act[0], target, act[1]);
-}
-
 // How much more thrust the ground under the rotor gives: Cheeseman and Bennett (1955),
 // 1/(1 - (R/4z)^2), or 1 + C (R/4z)^2; z along the wake, at least R/2.
 mjtNum GroundFactor(const Thruster& t, mjtNum height, mjtNum axis_z) {
-  if (t.ground_effect == 0 || axis_z <= 0) return 1;
+  if (axis_z <= 0) return 1;
   const mjtNum radius = 0.5 * t.curve.diameter;
   const mjtNum along = std::max((height - t.ground) / axis_z, 0.5 * radius);
   const mjtNum ratio = radius / (4 * along), square = ratio * ratio;
@@ -131,7 +113,7 @@ void ApplyActuators(const mjModel* m, mjData* d, const Thruster& t) {
   mjtNum* torque = t.torque >= 0 ? d->actuator_force + m->actuator_outadr[t.torque] : &none;
   *thrust = *torque = 0;
   if (IsOff(m, t.thrust)) return;
-  const RotorLoad load = EvaluateThruster(m, d, t, false);
+  const RotorLoad load = EvaluateThruster(m, d, t, Loads::kActuators);
   *thrust = load.thrust;
   *torque = -t.spin * (load.torque + t.inertia * load.rate);
 }
@@ -139,11 +121,9 @@ void ApplyActuators(const mjModel* m, mjData* d, const Thruster& t) {
 void ApplyPassive(const mjModel* m, mjData* d, const Thruster& t) {
   if (!t.passive() || IsOff(m, t.thrust) || IsAsleep(m, d, t.body)) return;
   const mjtNum* site = d->site_xpos + 3 * t.site;
-  const RotorLoad load = EvaluateThruster(m, d, t);
-  AddGeneralizedForce(m, d, t.body, site, load.drag_w, load.moment_w, d->qfrc_fluid);
-  mjtNum torque[3];
-  mju_add3(torque, load.moment_w, load.gyro_w);
-  AddGeneralizedForce(m, d, t.body, site, load.drag_w, torque, d->qfrc_passive);
+  const RotorLoad load = EvaluateThruster(m, d, t, Loads::kPassive);
+  const PassiveWrench wrench{load.drag_w, load.moment_w, load.gyro_w};
+  AddPassiveForce(m, d, t.body, site, wrench);
 }
 
 void Compute(const mjModel* m, mjData* d, int instance, int capability) {
@@ -165,49 +145,33 @@ void Advance(const mjModel* m, mjData* d, int instance) {
 
 }  // namespace
 
-mjtNum CommandedSpeed(const Thruster& t, mjtNum command, bool* saturated) {
-  mjtNum low = -t.limit[1], high = t.limit[0];  // rad/s
-  if (t.command == Command::kNormalized) {
-    low = t.limit[1] > 0 ? -1 : 0, high = 1;
-  } else if (t.command == Command::kPwm) {
-    low = t.table.empty() ? t.pwm[0] : t.table.front().command;
-    high = t.table.empty() ? t.pwm[2] : t.table.back().command;
-  } else if (t.command == Command::kNewton) {
-    low = t.table.empty() ? StaticThrust(t.curve, low) : t.table.front().thrust;
-    high = t.table.empty() ? StaticThrust(t.curve, high) : t.table.back().thrust;
-  }
-  const mjtNum kept = std::clamp(command, low, high);
-  *saturated |= kept != command;
-  if (t.command == Command::kRadPerS) return kept;
-  mjtNum thrust = kept;
-  if (t.command != Command::kNewton) {
-    const mjtNum pulse = t.command == Command::kPwm ? kept : PulseWidth(t.pwm, kept);
-    if (t.table.empty()) return SpeedForPulse(t, pulse);
-    thrust = Interpolate(t.table, pulse);
-  }
-  return SpeedForThrust(t.curve, thrust, t.limit[thrust < 0 ? 1 : 0]);
-}
-
-RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t, bool drag) {
+RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t, Loads loads) {
   RotorLoad out;
-  const bool needs_flow = t.thrust_needs_flow() || (drag && t.has_drag());
+  const bool drags = loads != Loads::kActuators, thrusts = loads != Loads::kPassive;
+  const bool needs_flow = (thrusts && t.thrust_needs_flow()) || (drags && t.has_drag());
+  const bool turns = drags && t.inertia > 0;
   const mjtNum command = ReadCommand(m, d, t.thrust, &out.saturated);
-  out.target = CommandedSpeed(t, command, &out.saturated);
-  const LaggedSpeed speed = PresentSpeed(m, d, t, out.target);
-  out.omega = speed.omega;
-  out.rate = speed.rate;
-  const mjtNum at_rest = StaticThrust(t.curve, out.omega);
-  const mjtNum torque = StaticTorque(t.curve, out.omega, at_rest);
-  mjtNum axis_w[3], velocity[3], spin_w[3];
+  const RotorState& state = PresentState(m, d, t, command);
+  out.saturated |= state.saturated;
+  out.target = state.target;
+  out.omega = state.omega;
+  out.rate = state.rate;
+  const mjtNum at_rest = state.thrust, torque = state.torque;
+  mjtNum axis_w[3], velocity[3], spin_w[3], ground = 1;
+  const bool near_ground = thrusts && t.ground_effect != 0 && out.omega > 0;
+  if (!needs_flow && !turns && !near_ground) {
+    out.thrust = at_rest;
+    out.torque = torque;
+    return out;
+  }
   Rotate(axis_w, d->site_xmat + 9 * t.site, t.axis);
-  mjtNum ground = 1;
-  if (out.omega > 0) ground = GroundFactor(t, d->site_xpos[3 * t.site + 2], axis_w[2]);
-  if (needs_flow || t.inertia > 0) {
+  if (near_ground) ground = GroundFactor(t, d->site_xpos[3 * t.site + 2], axis_w[2]);
+  if (needs_flow || turns) {
     PointVelocity(m, d, t.body, d->site_xpos + 3 * t.site, velocity, spin_w);
   }
-  if (t.inertia > 0) {  // the rotor's angular momentum J s omega turns with the body
-    mju_cross(out.gyro_w, axis_w, spin_w);
-    mju_scl3(out.gyro_w, out.gyro_w, t.inertia * t.spin * out.omega);
+  if (turns) {  // the rotor's angular momentum J s omega turns with the body
+    Cross3(out.gyro_w, axis_w, spin_w);
+    Scale3(out.gyro_w, out.gyro_w, t.inertia * t.spin * out.omega);
   }
   if (!needs_flow) {
     out.thrust = ground * at_rest;
@@ -218,17 +182,19 @@ RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t,
   const int count = DiscFlows(m, d, t, axis_w, flows);
   for (int i = 0; i < count; ++i) {
     mjtNum v[3];
-    mju_sub3(v, velocity, flows[i].velocity);
-    const mjtNum inflow = mju_dot3(v, axis_w), scale = flows[i].weight * FluidFactor(t, flows[i]);
+    Subtract3(v, velocity, flows[i].velocity);
+    const mjtNum inflow = Dot3(v, axis_w), scale = flows[i].weight * FluidFactor(t, flows[i]);
     out.inflow += flows[i].weight * inflow;
-    out.thrust += scale * (ground * at_rest + InflowThrust(t.curve, out.omega, inflow));
-    out.torque += scale * (torque + InflowTorque(t.curve, out.omega, inflow));
-    if (t.loss.law != InflowLaw::kNone) {
+    if (thrusts) {
+      out.thrust += scale * (ground * at_rest + InflowThrust(t.curve, out.omega, inflow));
+      out.torque += scale * (torque + InflowTorque(t.curve, out.omega, inflow));
+    }
+    if (thrusts && t.loss.law != InflowLaw::kNone) {
       const LoadChange change = InflowChange(t.loss, out.omega, at_rest, inflow);
       out.thrust += scale * change.thrust;
       if (torque != 0) out.torque += scale * change.torque;
     }
-    AddDrag(t, axis_w, v, inflow, scale, &out);
+    if (drags) AddDrag(t, axis_w, v, inflow, scale, &out);
   }
   return out;
 }
@@ -253,9 +219,9 @@ void AddRotorTerms(const mjModel* m, const mjData* d, int body, const mjtNum poi
     if (!t || t->body != body || !t->passive() || IsOff(m, t->thrust)) continue;
     const RotorLoad load = EvaluateThruster(m, d, *t);
     mjtNum arm[3];
-    mju_sub3(arm, d->site_xpos + 3 * t->site, point_w);
-    mju_addTo3(terms[kDrag].force, load.drag_w);
-    mju_addTo3(terms[kDrag].torque, load.moment_w);
+    Subtract3(arm, d->site_xpos + 3 * t->site, point_w);
+    AddTo3(terms[kDrag].force, load.drag_w);
+    AddTo3(terms[kDrag].torque, load.moment_w);
     AddCross(terms[kDrag].torque, arm, load.drag_w);
   }
 }

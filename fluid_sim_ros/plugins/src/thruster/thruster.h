@@ -22,6 +22,23 @@ namespace fluid_sim {
 enum class Command { kNewton, kNormalized, kRadPerS, kPwm };
 enum class Works { kConstant, kLocal, kWater, kAir };
 
+// What command and lag alone make of a rotor.
+struct RotorState {
+  mjtNum target = 0, omega = 0;  // [rad/s]
+  mjtNum rate = 0;               // domega/dt [rad/s^2]
+  mjtNum thrust = 0;             // at rest [N]
+  mjtNum torque = 0;             // at rest, of the sign of omega [N m]
+  bool saturated = false;        // the command was beyond what the thruster can do
+};
+
+// The last one and what it was asked for: actuators, passive forces and the stages of an integrator
+// ask for the same.
+struct KeptState {
+  mjtNum asked[3];  // command, speed at the start of the step, time since
+  bool any = false;
+  RotorState state;
+};
+
 struct Thruster {
   int thrust = -1, torque = -1;  // actuators; -1: none
   int site = -1, body = -1;
@@ -46,6 +63,7 @@ struct Thruster {
 
   Works works = Works::kConstant;
   Medium medium;  // constants only; its state is in mjData
+  mutable KeptState kept;
 
   bool passive() const { return inertia > 0 || drag[0] > 0 || drag[1] > 0 || rolling > 0; }
   bool has_drag() const { return drag[0] > 0 || drag[1] > 0 || rolling > 0; }
@@ -78,10 +96,20 @@ bool ReadThruster(const mjModel* m, int instance, Thruster* out);
 // Speed that a command asks for [rad/s]; tells whether it was beyond what the thruster can do.
 mjtNum CommandedSpeed(const Thruster& thruster, mjtNum command, bool* saturated);
 
-// From the command, activation, positions and velocities in d; without `drag` only what thrust and
-// torque take.
+// What a command and the lag make of the rotor now; kept in the thruster.
+const RotorState& PresentState(const mjModel* m, const mjData* d, const Thruster& thruster,
+                               mjtNum command);
+
+// What a load is asked for.
+enum class Loads {
+  kActuators,  // thrust and torque along the axis
+  kPassive,    // drag, rolling moment and gyroscopic torque
+  kAll
+};
+
+// From the command, activation, positions and velocities in d; the rest of the load stays zero.
 RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& thruster,
-                           bool drag = true);
+                           Loads loads = Loads::kAll);
 
 // The thruster that an actuator belongs to, or null.
 const Thruster* FindThruster(const mjModel* m, const mjData* d, int actuator);
