@@ -40,6 +40,6 @@ site_contents = {
     'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],
     'Results': ['logs', 'sweep', 'lab', 'lab_methods', 'reality', 'accuracy', 'validation'],
     'Reference': ['reference/*', 'parameters', 'ros_conventions', 'plugins', 'foil', 'thruster'],
-    'Understand': ['physics', 'limits', 'robustness', 'network'],
+    'Understand': ['physics', 'limits', 'robustness', 'network', 'speed'],
     'Project': ['project/*', 'development', 'extending'],
 }

@@ -51,6 +51,33 @@ def test_large_steps_and_speeds_that_jump_into_a_contact(tmp_path, integrator):
     assert beside.apart > 20
 
 
+@pytest.mark.parametrize('share', np.linspace(0.1, 1.2, 12))
+def test_a_middle_stage_that_dips_into_the_floor(tmp_path, share):
+    """A ball that is pushed up hard: RK4's second stage is lower than its first and its last."""
+    changes = {
+        'type="ellipsoid" size=".1 .08 .06"': 'type="sphere" size=".1"',
+        '<geom friction': '<geom solref="-100000 -100" friction',  # hard: it pushes harder still
+    }
+
+    def edit(text):
+        for old, new in changes.items():
+            text = text.replace(old, new, 1)
+        return text
+
+    simulation = world(tmp_path, 'RK4', timestep=0.02, edit=edit)
+    simulation.model.opt.gravity[:] = 0
+    beside, down, push = Beside(simulation), 0.55, 60.0  # [m/s], [m/s^2]
+
+    def write(data):
+        data.qpos[8:15] = [0, 2, 0.1 + share * down * 0.01, 1, 0, 0, 0]
+        data.qvel[7:13] = [0, 0, -down, 0, 0, 0]
+        data.qfrc_applied[9] = push * simulation.model.body('two').mass[0]
+
+    beside.both(write)
+    for _ in range(3):
+        beside.step(1)
+
+
 @pytest.mark.parametrize('integrator', ('RK4', 'implicitfast'))
 @pytest.mark.parametrize('gap', (-1e-3, -1e-9, 0.0, 1e-9, 1e-6, 1e-3, 0.05))
 def test_grazing(tmp_path, integrator, gap):
