@@ -113,12 +113,18 @@ def test_single_precision_of_a_file_does_not_matter():
     assert (np.abs(matrices[1] - turned) / np.outer(size, size)).max() < 1e-6
 
 
+@pytest.fixture(scope='module')
+def ball_alone():
+    """Return a sphere far from everything: its added mass and statics."""
+    return solved(ellipsoid((1, 1, 1), 2), 330)
+
+
 @pytest.mark.parametrize(('free', 'sign'), [(False, 1), (True, -1)])
-def test_a_sphere_near_a_plane(free, sign):
+def test_a_sphere_near_a_plane(free, sign, ball_alone):
     """Lamb (1932), art. 99 and 138: to first order in (a/h)^3."""
     gap = 2.0
     ball = ellipsoid((1, 1, 1), 2)
-    alone, statics = solved(ball, 330)
+    alone, statics = ball_alone
     normal = TURN @ np.array([0, 0, 1.0])
     # fewer panels where there are images: as many as above
     near, _ = solved(ball, 470, [Plane('--bed', normal, -gap, free)])

@@ -35,7 +35,7 @@ def made(tmp_path_factory):
     write_stl(type(mesh)(mesh.vertices + np.array([0.3, 0, 0.1]), mesh.faces), folder / 'hull.stl')
     code = main([
         'hydro', str(folder / 'hull.stl'), '--density', '1000', '--about', '.1', '0', '0',
-        '--mass', '45', '--center-of-mass', '.3', '0', '.05', '--thrust', '50', '--panels', '330',
+        '--mass', '45', '--center-of-mass', '.3', '0', '.05', '--thrust', '50', '--panels', '150',
         '--json', str(folder / 'hull.json'), '--report', str(folder / 'report'),
     ])  # fmt: skip
     assert code == 0
