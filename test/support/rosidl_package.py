@@ -24,15 +24,22 @@ _LIBRARIES = (
 )  # fmt: skip
 
 
-def build(package, texts, needs, folder):
+def build(package, texts, needs, folder, compiled=True):
     """
     Build a package into a folder.
 
     ``texts`` holds the definitions by ``msg/Name`` and ``srv/Name``, ``needs`` the packages that
-    they use. Returns what a process needs in its environment to find it.
+    they use. Returns what a process needs in its environment to find it. Without the compiled part
+    its Python classes hold values, but are neither sent nor received.
     """
     script = Path(__file__)
-    task = {'package': package, 'texts': texts, 'needs': list(needs), 'folder': str(folder)}
+    task = {
+        'package': package,
+        'texts': texts,
+        'needs': list(needs),
+        'folder': str(folder),
+        'compiled': compiled,
+    }
     index = {'AMENT_PREFIX_PATH': str(PREFIX)}
     done = subprocess.run(
         [sys.executable, str(script)], env={**os.environ, **index}, input=json.dumps(task),
@@ -51,9 +58,9 @@ def build(package, texts, needs, folder):
     }
 
 
-def _build(package, texts, needs, folder):
+def _build(package, texts, needs, folder, compiled):
     """Generate, compile and lay out a package; runs in a process of its own."""
-    generated = _generate(package, texts, needs, folder / 'made')
+    generated = _generate(package, texts, needs, folder / 'made', compiled)
     target = folder / package
     (folder / 'lib').mkdir(parents=True, exist_ok=True)
     index = folder / 'share/ament_index/resource_index/rosidl_interfaces'
@@ -65,7 +72,13 @@ def _build(package, texts, needs, folder):
         place.write_bytes(path.read_bytes())
     (target / '__init__.py').touch()
 
-    include = PREFIX / 'include'
+    if compiled:
+        _compile(package, generated, needs, folder)
+
+
+def _compile(package, generated, needs, folder):
+    """Compile the libraries of a package, and the module that Python imports."""
+    include, target = PREFIX / 'include', folder / package
     flags = ['-O0', '-fPIC', '-shared', f'-I{sysconfig.get_paths()["include"]}']
     flags += [f'-I{path.parent}' for path in generated.values()]
     flags += [f'-I{path}' for path in include.iterdir() if path.is_dir()]
@@ -109,7 +122,7 @@ def _build(package, texts, needs, folder):
     ))  # fmt: skip
 
 
-def _generate(package, texts, needs, folder):
+def _generate(package, texts, needs, folder, compiled):
     """Return where each generator has written."""
     from rosidl_cli.command.translate.api import translate
     from rosidl_generator_c.cli import GenerateC
@@ -137,6 +150,7 @@ def _generate(package, texts, needs, folder):
         GenerateIntrospectionCTypesupport('rosidl_typesupport_introspection_c'),
         GeneratePython('py', typesupport_implementations=['rosidl_typesupport_c']),
     ]
+    generators = generators if compiled else generators[-1:]
     for generator in generators:
         generator.generate(package, files, includes, folder / generator.name / package)
     return {each.name: folder / each.name / package for each in generators}
@@ -144,4 +158,5 @@ def _generate(package, texts, needs, folder):
 
 if __name__ == '__main__':
     task = json.loads(sys.stdin.read())
-    _build(task['package'], task['texts'], task['needs'], Path(task['folder']))
+    task['folder'] = Path(task['folder'])
+    _build(**task)
