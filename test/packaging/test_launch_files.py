@@ -158,14 +158,18 @@ def test_state_publishers_have_the_urdf_and_the_links_to_themselves(start):
     assert publisher.namespace == 'remus100'
     robot, _ = by_urdf_parser(publisher.given['robot_description'], {})
     assert robot.name == 'remus100'
+    with pytest.raises(RuntimeError, match='needs scene:=NAME'):
+        start(state_publisher='true')
+
+
+@pytest.mark.full  # each vehicle is a program of its own
+def test_state_publishers_of_a_fleet_are_named_one_by_one(start):
     _, *several = start(
         scene='fleet_mixed', state_publisher='true', vehicles='one,rov', namespace='sim'
     )
     assert [node.namespace for node in several] == ['sim/one', 'sim/rov']
     with pytest.raises(RuntimeError, match='--vehicle: names one of'):
         start(scene='fleet_mixed', state_publisher='true')
-    with pytest.raises(RuntimeError, match='needs scene:=NAME'):
-        start(state_publisher='true')
 
 
 def test_a_word_that_is_not_allowed_is_refused(start):

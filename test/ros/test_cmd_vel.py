@@ -95,6 +95,7 @@ def tilted():
     return message
 
 
+@pytest.mark.full  # slow to start
 @pytest.mark.parametrize(
     ('kind', 'vehicle', 'scene'),
     [('auv', 'remus100', 'remus100'), ('plane', 'aerosonde', 'aerosonde')],

@@ -20,6 +20,9 @@ KINDS = {
     'plane_controller': lambda: controller('plane'),
 }
 
+#: The others are of the same tables.
+_QUICK = ('fluid_sim_node', 'quad_controller')
+
 
 def described(peer, name):
     """Return the descriptor of each parameter of a node by its name."""
@@ -29,7 +32,10 @@ def described(peer, name):
     return {each.name: each for each in answer.descriptors}
 
 
-@pytest.mark.parametrize('name', KINDS)
+@pytest.mark.parametrize(
+    'name',
+    [pytest.param(kind, marks=[] if kind in _QUICK else pytest.mark.full) for kind in KINDS],
+)
 def test_each_parameter_says_what_it_is_and_when_it_may_change(name):
     with Peer() as peer, KINDS[name]():
         descriptors = described(peer, name)

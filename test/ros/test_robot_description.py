@@ -34,6 +34,7 @@ def test_a_log_holds_it_for_viewers(tmp_path):
         assert by_urdf_parser(text, {})[0].name == name
 
 
+@pytest.mark.full  # one more node
 def test_what_urdf_cannot_say_is_said(tmp_path):
     path = tmp_path / 'a.xml'
     path.write_text(
