@@ -5,6 +5,9 @@ from numpy.typing import ArrayLike
 
 from fluid_sim_ros.new_vehicle.layout import DENSITY, Thruster
 
+#: V/(n D) at which the thrust vanishes: guesses, those of bluerov2 and x500 (doc/thruster.md).
+_DUCTED_ADVANCE, _OPEN_ADVANCE = 0.73, 0.6
+
 
 def instance_keys(thruster: Thruster, *, water: bool) -> dict[str, str]:
     """
@@ -40,6 +43,10 @@ def instance_keys(thruster: Thruster, *, water: bool) -> dict[str, str]:
         }
     if water:  # by the density at the disc
         keys |= {'fluid': 'local', 'density': _text(DENSITY['water'])}
+    # for the rung inflow, off otherwise: as the T200, and as an open rotor of usual pitch
+    keys['zero_thrust_advance'] = _text(_DUCTED_ADVANCE if water else _OPEN_ADVANCE)
+    if not water:
+        keys |= {'inflow_law': 'momentum', 'density': _text(DENSITY['air'])}
     return keys
 
 

@@ -219,6 +219,24 @@ def test_hover_of_nothing_to_lift():
     np.testing.assert_allclose(hover_thrusts(design.thrusters, 0.0), 0, atol=1e-12)
 
 
+@pytest.mark.parametrize(('medium', 'layout'), [('air', 'quad'), ('water', 'vectored6')])
+def test_the_rung_inflow_takes_thrust_off_a_new_vehicle_that_moves(tmp_path, medium, layout):
+    density = 100 if medium == 'air' else 900
+    design = design_vehicle(
+        name='v', medium=medium, mass=density * 0.5 * 0.4 * 0.3, size=(0.5, 0.4, 0.3),
+        thrusters=layout,
+    )  # fmt: skip
+    scene = write_vehicle(design, tmp_path).scene
+    rises = []
+    for fluid in (None, 'inflow'):
+        simulation = Simulation(scene, fluid=fluid)
+        highest = simulation.vehicles['v'].thrust_range[:, 1]
+        simulation.set_thrust('v', 0.9 * highest)
+        simulation.step(1000)
+        rises.append(np.linalg.norm(simulation.data.qvel[:3]))
+    assert 0.2 * rises[0] < rises[1] < 0.99 * rises[0]
+
+
 def test_every_guess_is_marked_and_the_files_are_plain(tmp_path):
     vehicle = write_vehicle(design_vehicle(**ROV), tmp_path)
     text = (tmp_path / 'r.xml').read_text()
