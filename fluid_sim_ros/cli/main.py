@@ -18,7 +18,7 @@ from fluid_sim_ros import __version__
 from fluid_sim_ros.cli import autopilot, completion, logs, run_command, sweep
 from fluid_sim_ros.cli.lab import advise, chart, stability
 from fluid_sim_ros.cli.parser import WRONG_INPUT, Parser
-from fluid_sim_ros.cli.reality import compare, fit
+from fluid_sim_ros.cli.reality import compare, excite, fit
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, console
 from fluid_sim_ros.cli.vehicles import hydro, import_file, new_vehicle, urdf
 from fluid_sim_ros.cli.view import command as view
@@ -114,6 +114,7 @@ def _build_parser() -> Parser:
         each.add_parser(commands, _show)
     compare.add_parser(commands, _show)
     fit.add_parser(commands, _show)
+    excite.add_parser(commands, _show)
     sweep.add_parser(commands, _show)
     view.add_parser(commands, _show)
 

@@ -10,6 +10,7 @@ from fluid_sim_ros.flights.flight import Flight, FlightError, Signal
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.config import THRUSTER, plugin_of_actuator
+from fluid_sim_ros.reality.commanded import speed_for_thrust
 from fluid_sim_ros.scene.vehicle import Vehicle
 
 #: A measured speed may be this much above the model's limit, before it is no speed of this rotor.
@@ -192,7 +193,9 @@ def take_commands(
     """
     if kind == 'thrust':
         return
-    command = {'rotor_speed': 'rad_s', 'speed_share': 'rad_s', 'pwm': 'pwm_us'}.get(kind, 'newton')
+    command = {
+        'rotor_speed': 'rad_s', 'speed_share': 'rad_s', 'thrust_speed': 'rad_s', 'pwm': 'pwm_us',
+    }.get(kind, 'newton')  # fmt: skip
     for name, limit in zip(vehicle.thrusters, limits, strict=True):
         actuator = spec.actuator(name)
         instance = actuator.plugin.name
@@ -213,7 +216,7 @@ def take_commands(
 
 def controls_of(
     model: mujoco.MjModel, vehicle: Vehicle, kind: str, outputs: tuple[Output, ...],
-    limits: list[tuple[float, ...]],
+    limits: list[tuple[float, ...]], coefficients: Array,
 ) -> Callable[[Array], Array]:  # fmt: skip
     """
     Return what turns actuator values, shape (..., n), into controls.
@@ -230,12 +233,16 @@ def controls_of(
         What the outputs of an autopilot drive.
     limits
         As ``speed_limits`` returns them [rad/s].
+    coefficients
+        As ``commanded_coefficients`` returns them.
 
     """
     if kind in ('rotor_speed', 'pwm'):
         return lambda values: values
     if kind == 'thrust':
         return lambda values: values / vehicle.thrust_scale
+    if kind == 'thrust_speed':
+        return speed_for_thrust(vehicle, coefficients)
     named = {output.thruster: output.input for output in outputs}
     ranges = [named.get(name, []) for name in vehicle.thrusters]
     if kind == 'thrust_share':

@@ -23,6 +23,7 @@ from fluid_sim_ros.reality.actuators import (
     speed_limits,
     take_commands,
 )
+from fluid_sim_ros.reality.commanded import commanded_coefficients
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.media import streams_of
 from fluid_sim_ros.scene.vehicle import Vehicle
@@ -125,6 +126,9 @@ def drive(
     vehicle = _vehicle(plain.vehicles, flight.vehicle, scene.name)
     columns = columns_of_thrusters(signal, vehicle, flight, outputs)
     kind, notes = kind_of_drive(plain.model, vehicle, signal, outputs, flight)
+    coefficients = commanded_coefficients(plain.model, vehicle)
+    if kind == 'thrust' and len(coefficients):
+        kind = 'thrust_speed'
     limits = speed_limits(plain.model, vehicle, signal, kind, columns, flight)
 
     def change(spec: mujoco.MjSpec) -> None:
@@ -136,7 +140,8 @@ def drive(
     compiled = scene.compile(settings or RunSettings(), change)
     model = compiled.model
     vehicle = compiled.vehicles[vehicle.name]
-    controls = controls_of(model, vehicle, kind, outputs, limits)
+    controls = controls_of(model, vehicle, kind, outputs, limits, coefficients)
+    kind = 'thrust' if kind == 'thrust_speed' else kind
     lag = _longest_lag(model, vehicle)
     speeds = _speed_columns(model, vehicle, flight) if lag else ()
     return Driven(model, vehicle, kind, columns, controls, lag, speeds, notes)

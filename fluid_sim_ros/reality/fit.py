@@ -118,7 +118,7 @@ def fit(
         raise ConfigError('--parameters: name at least one')
     scene = comparable_scene(task.model)
     chosen = find_parameters(scene, task.parameters)
-    shots, lines = _shots(flights, task)
+    shots, lines = cut_shots(flights, task)
     sigmas = _sigmas(shots)
     solver = Solver(flights, task, chosen, shots, sigmas)
     values = np.array([task.values.get(p.name, p.value) for p in chosen])
@@ -138,7 +138,23 @@ def fit(
         return _result(solver, values, pool, before, count, lines)
 
 
-def _shots(flights: Sequence[Flight], task: Task) -> tuple[list[Shots], list[str]]:
+def cut_shots(flights: Sequence[Flight], task: Task) -> tuple[list[Shots], list[str]]:
+    """
+    Cut flights into the windows of a fit.
+
+    Parameters
+    ----------
+    flights
+        That drive the model.
+    task
+        What is fitted.
+
+    Returns
+    -------
+    shots, lines
+        One for each flight, and what a reader must know.
+
+    """
     scene = comparable_scene(task.model)
     shots, lines = [], []
     for flight in flights:

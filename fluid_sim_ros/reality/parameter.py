@@ -10,6 +10,7 @@ import mujoco
 MANOEUVRES = {
     'rotor_drag': 'steady flight at speed along x and y',
     'rotor_drag_along': 'climbs and descents at speed',
+    'zero_thrust_advance': 'climbs and descents at speed',
     'rotor_height': 'steady flight at speed along x and y, with quick stops',
     'thrust_coefficient': 'hover and climbs; with mass only their ratio is seen: weigh it',
     'torque_ratio': 'steps in yaw',

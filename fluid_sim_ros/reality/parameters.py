@@ -22,6 +22,7 @@ _ROTOR = {
     'rotor_drag': ('rotor_drag', 0, 'N/((rad/s)(m/s))'),
     'rotor_drag_along': ('rotor_drag', 1, 'N/((rad/s)(m/s))'),
     'rolling_moment': ('rolling_moment', 0, 'N m/((rad/s)(m/s))'),
+    'zero_thrust_advance': ('zero_thrust_advance', 0, '-'),
 }  # fmt: skip
 
 

@@ -47,6 +47,7 @@ NOT_RUN = {
     'fluid_sim info bag/': 'has no log of a real flight',
     'fluid_sim compare flight.ulg': 'has no log of a real flight',
     'fluid_sim fit a.usd': 'has no log of a real flight',
+    'fluid_sim fit excited.mcap': 'needs the extra flights, as said; see test_excite.py',
     'fluid_sim repair broken.mcap whole.mcap': 'has no damaged file; see test_recorder.py',
 }
 #: What goes on until it is ended, by a part of it.
@@ -60,6 +61,7 @@ SHORTER = {
     'fluid_sim run quadrotor --record': '--duration 1',
     'fluid_sim run quadrotor --hold --pacing realtime': '--duration 1',
     'fluid_sim advise': '--budget 3',
+    'fluid_sim excite': '--duration 6',
     'fluid_sim hydro': '--panels 60',
     'fluid_sim import': '--panels 60',
     'fluid_sim chart kirchhoff': '--timesteps 0.01 0.005 --rounds 1 --integrators RK4',
