@@ -45,6 +45,7 @@ NOT_RUN = {
     'fluid_sim sweep FILE.yaml --device cuda:0': 'needs a GPU and the extra warp, as said',
     'fluid_sim info flight.ulg': 'has no log of a real flight; see test/flights and test/cli',
     'fluid_sim info bag/': 'has no log of a real flight',
+    'fluid_sim chart --against flight.ulg': 'has no log of a real flight',
     'fluid_sim compare flight.ulg': 'has no log of a real flight',
     'fluid_sim fit a.usd': 'has no log of a real flight',
     'fluid_sim fit excited.mcap': 'needs the extra flights, as said; see test_excite.py',

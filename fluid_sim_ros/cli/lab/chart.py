@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.lab.tables import fronts_table
 from fluid_sim_ros.cli.parser import above
+from fluid_sim_ros.cli.reality.chart_against import add_against, chart_flight
 from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_of_parts
 from fluid_sim_ros.errors import ConfigError, FluidSimError
 
@@ -69,6 +70,7 @@ def add_parser(commands: Any, show: Show) -> None:
         help='with --from: measure the times anew, on this machine, and keep the errors; name '
         'the scene file, too, where it is yours',
     )  # fmt: skip
+    add_against(chart)
 
 
 def _chart(arguments: argparse.Namespace, show: Show) -> int:
@@ -76,6 +78,8 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.lab.drawing.chart import draw
     from fluid_sim_ros.lab.drawing.chart_page import write_chart_page
 
+    if arguments.against is not None:
+        return chart_flight(arguments, show)
     if arguments.time_again and not arguments.saved:
         raise ConfigError('--time-again: needs --from JSON, the charts to time')
     if not (arguments.saved or arguments.problem):
