@@ -18,10 +18,10 @@ import numpy as np
 from benchmarks.common import arguments, write
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.reality.driven import comparable_scene
-from fluid_sim_ros.reality.excitation import Limits
-from fluid_sim_ros.reality.excited_flight import excite
+from fluid_sim_ros.reality.exciting.excitation import Limits
+from fluid_sim_ros.reality.exciting.excited_flight import excite
+from fluid_sim_ros.reality.exciting.foreseen import NOISE
 from fluid_sim_ros.reality.fit import Fitted, fit
-from fluid_sim_ros.reality.foreseen import NOISE
 from fluid_sim_ros.reality.parameters import find_parameters
 from fluid_sim_ros.reality.solver import Task
 

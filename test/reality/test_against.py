@@ -7,9 +7,9 @@ import pytest
 from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.reader import read_flight
-from fluid_sim_ros.reality.against import Chosen, chart_against
+from fluid_sim_ros.reality.charting.against import Chosen, chart_against
+from fluid_sim_ros.reality.charting.rungs import ladder
 from fluid_sim_ros.reality.driven import comparable_scene
-from fluid_sim_ros.reality.rungs import ladder
 from test.support.flown import write_x500
 
 

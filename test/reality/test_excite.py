@@ -10,8 +10,8 @@ from fluid_sim_ros.cli import main
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.reality.compare import Part, compare
-from fluid_sim_ros.reality.excitation import Limits, multisine
-from fluid_sim_ros.reality.excited_flight import excite
+from fluid_sim_ros.reality.exciting.excitation import Limits, multisine
+from fluid_sim_ros.reality.exciting.excited_flight import excite
 from fluid_sim_ros.reality.fit import fit
 from fluid_sim_ros.reality.solver import Task
 

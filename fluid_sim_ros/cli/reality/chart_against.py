@@ -50,8 +50,13 @@ def chart_flight(arguments: argparse.Namespace, show: Show) -> int:
     import json
 
     from fluid_sim_ros.flights.reader import read_flight
-    from fluid_sim_ros.reality.against import INTEGRATORS, TIMESTEPS, Chosen, chart_against
-    from fluid_sim_ros.reality.against_picture import draw_against
+    from fluid_sim_ros.reality.charting.against import (
+        INTEGRATORS,
+        TIMESTEPS,
+        Chosen,
+        chart_against,
+    )
+    from fluid_sim_ros.reality.charting.against_picture import draw_against
 
     if arguments.model is None:
         raise ConfigError('--against LOG: needs --model NAME')

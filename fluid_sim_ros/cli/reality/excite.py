@@ -44,10 +44,10 @@ def add_parser(commands: Any, show: Show) -> None:
 def _excite(arguments: argparse.Namespace, show: Show) -> int:
     import numpy as np
 
-    from fluid_sim_ros.reality.excitation import Limits
-    from fluid_sim_ros.reality.excite_files import write_csv, write_schedule
-    from fluid_sim_ros.reality.excited_flight import excite
-    from fluid_sim_ros.reality.foreseen import foreseen
+    from fluid_sim_ros.reality.exciting.excitation import Limits
+    from fluid_sim_ros.reality.exciting.excite_files import write_csv, write_schedule
+    from fluid_sim_ros.reality.exciting.excited_flight import excite
+    from fluid_sim_ros.reality.exciting.foreseen import foreseen
 
     limits = Limits(
         arguments.space, arguments.speed, float(np.radians(arguments.tilt)), arguments.share

@@ -14,7 +14,7 @@ from fluid_sim_ros.loop.hold import state_of
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.reality.driven import comparable_scene
-from fluid_sim_ros.reality.excitation import Limits, Plan, plan
+from fluid_sim_ros.reality.exciting.excitation import Limits, Plan, plan
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.plant import plant_of

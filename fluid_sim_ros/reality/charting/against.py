@@ -13,10 +13,10 @@ from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
+from fluid_sim_ros.reality.charting.rungs import ladder
 from fluid_sim_ros.reality.compare import fly_windows
 from fluid_sim_ros.reality.driven import Driven, comparable_scene, drive
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.rungs import ladder
 from fluid_sim_ros.reality.spinning import lead_in
 from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity
 from fluid_sim_ros.schema.settings import RunSettings

@@ -7,7 +7,7 @@ import numpy as np
 import yaml
 
 from fluid_sim_ros.output.new_file import new_file
-from fluid_sim_ros.reality.excited_flight import Excited
+from fluid_sim_ros.reality.exciting.excited_flight import Excited
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.scene import Scene
 

@@ -1,0 +1,1 @@
+"""Manoeuvres that make parameters felt: planned, flown by a model, written, and judged."""
