@@ -50,7 +50,7 @@ def writer_of(pid: int) -> int:
 
 def fly(folder: Path, wall: float) -> dict[str, Any]:
     """Fly for a wall time [s]; return what was measured."""
-    domain = random.SystemRandom().randrange(61, 101)
+    domain = int(os.environ.get('ROS_DOMAIN_ID') or random.SystemRandom().randrange(61, 101))
     os.environ['ROS_DOMAIN_ID'] = str(domain)
     log = folder / 'soak.mcap'
     node = {'scene': SCENE, 'pacing': 'lockstep', 'record.path': log}

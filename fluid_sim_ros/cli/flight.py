@@ -14,6 +14,7 @@ from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Bridge, Surround
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.loop.shared_lockstep import joined
+from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
 
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from fluid_sim_ros.mavlink.program.program import Program
     from fluid_sim_ros.recording.sink import RecordingSink
 
-#: Wall time between two lines about the same thing [s].
-_LINE_PERIOD = 1.0
 #: Of the bridge's numbers, those that a summary names, in its order.
 _COUNTS = ('missed', 'late', 'repeated', 'malformed', 'restarts')
 
@@ -83,7 +82,7 @@ class Flight:
         say: Callable[[str], None],
     ) -> None:
         self._simulation, self._runs, self._log, self._say = simulation, runs, log, say
-        self._said_at: dict[str, float] = {}
+        self._report = ThrottledLog(say)
         self._runner: Runner | None = None
         self.fault = ''
         self._exit_codes: dict[str, int] = {}
@@ -119,6 +118,13 @@ class Flight:
 
         """
         self._runner = runner
+        before = runner.housekeeping
+
+        def tell() -> None:
+            before()
+            self._report.flush()
+
+        runner.housekeeping = tell
         with ExitStack() as stack:
             for bridge in self.bridges:
                 stack.callback(bridge.close)
@@ -191,12 +197,6 @@ class Flight:
             line = line if answered else f'{line} before it answered'
             self.fault = self.fault or self._of(bridge, line)
         self._runner.stop()
-
-    def _report(self, key: str, line: str) -> None:
-        now = time.monotonic()
-        if now - self._said_at.get(key, -_LINE_PERIOD) >= _LINE_PERIOD:
-            self._said_at[key] = now
-            self._say(line)
 
     def _result(self, bridge: Bridge) -> dict[str, Any]:
         status = bridge.status()

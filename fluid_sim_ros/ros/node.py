@@ -69,6 +69,7 @@ class FluidSimNode(LifecycleNode):
         """
         while not self._ending:
             self._requests.serve()
+            self._report.flush()
             session = self._session
             if session is None:
                 self._requests.idle()

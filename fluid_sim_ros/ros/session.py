@@ -1,7 +1,7 @@
 """What exists while the node is configured: simulation, topics and the loop between them."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from rclpy.node import Node
@@ -14,6 +14,7 @@ from fluid_sim_ros.ros.autopilot import start_autopilots
 from fluid_sim_ros.ros.foxglove import start_foxglove
 from fluid_sim_ros.ros.health.diagnostics import Diagnostics
 from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
+from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.pacings import Pacings
@@ -23,8 +24,6 @@ from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import rounded_duration
 
 _DIAGNOSTICS_PERIOD = 1.0
-
-Report = Callable[[str, str], None]
 
 
 class Session:
@@ -64,7 +63,7 @@ class Session:
         settings: dict[str, Any],
         requests: RequestQueue,
         graph: GraphMonitor,
-        report: Report,
+        report: ThrottledLog,
         notes: Sequence[str] = (),
     ) -> None:
         self._node = node
@@ -165,6 +164,7 @@ class Session:
 
     def _housekeeping(self) -> None:
         now = time.monotonic()
+        self._report.flush()
         if self.tap is not None:
             self.tap.flush()
             if self.tap.fault and not self.lost:

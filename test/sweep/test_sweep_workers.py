@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+import time
 import types
 from pathlib import Path
 
@@ -101,6 +102,30 @@ def test_ray_gives_the_same_bits_and_survives_a_killed_worker(tmp_path):
     assert heard and all(address.endswith('0100007F') for address in heard)  # 127.0.0.1 alone
     assert result['status'] == {'ok': 80}
     assert pq.read_table(result['table']).to_pylist() == CaseRunner(sweep).rows(0, 80)
+
+
+@pytest.mark.full
+@pytest.mark.parametrize('after', [0.5, 3.0, 8.0])
+def test_sigterm_ends_a_sweep_on_ray_and_its_cluster(tmp_path, after):
+    """While Ray is loaded, while it starts, and in flight."""
+    pytest.importorskip('ray')
+    (tmp_path / 'sweep.yaml').write_text(
+        'scene: rov\nduration: 2.0\nruns: 2000\nseed: 3\nvary: {current.x: {normal: [0, 1]}}\n'
+    )
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'fluid_sim_ros.cli', 'sweep', 'sweep.yaml', '--ray', 'local',
+         '--workers', '2', '--out', 'out'],
+        cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    time.sleep(after)
+    children = descendants(process.pid)
+    process.send_signal(signal.SIGTERM)
+    _, errors = process.communicate(timeout=60)
+    assert (process.returncode, errors) == (143, 'fluid_sim: interrupted\n')
+    deadline = time.monotonic() + 30
+    while any('ray' in title(pid) for pid in children):
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
 
 
 def descendants(parent: int) -> list[int]:

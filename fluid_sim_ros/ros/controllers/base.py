@@ -257,9 +257,9 @@ class ControllerNode(Node, ABC):
         stamp_ns, state = stamped
         if not state.is_sound():
             # one such number would stay in the controller's integrators for ever
-            self.get_logger().error(
+            self._states.rejected(
+                'state',
                 'the odometry holds numbers that are not finite, or no attitude: not answered',
-                throttle_duration_sec=1.0,
             )
             return
         if stamp_ns < self._last_stamp_ns:
@@ -288,7 +288,7 @@ class ControllerNode(Node, ABC):
             self.plan.go_to(Waypoint(place, yaw))
             self.velocity.forget()
             return
-        self.get_logger().error(f'waypoint rejected: {fault}')
+        self._states.rejected('waypoint', f'waypoint rejected: {fault}')
 
     # ---- parameters (executor thread) ----------------------------------------------------------
 

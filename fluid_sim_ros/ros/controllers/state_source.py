@@ -11,6 +11,7 @@ from fluid_sim_ros.messages.commands import TWIST
 from fluid_sim_ros.messages.state_topics import ODOMETRY
 from fluid_sim_ros.messages.topic import STATE
 from fluid_sim_ros.ros.controllers.states import StampedState, read_odometry
+from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.raw import PolledSubscription
 
 
@@ -28,10 +29,15 @@ class StateSource:
         ``wind`` or ``current``: a state waits for the message of its own stamp on
         ``<vehicle>/medium/<medium>`` and carries its velocity; '' for odometry alone.
 
+    Attributes
+    ----------
+    rejected
+        Takes (key, line) of what arrives and is not taken: one line a second, with a count.
+
     """
 
     def __init__(self, node: Node, vehicle: str, medium: str = '') -> None:
-        self._log = node.get_logger()
+        self.rejected = ThrottledLog(node.get_logger().error)
         self._odometry = PolledSubscription(node, ODOMETRY, f'{vehicle}/odom', STATE)
         self._medium = None
         if medium:
@@ -52,11 +58,12 @@ class StateSource:
 
     def take(self) -> Iterator[StampedState]:
         """Yield the states that are complete now."""
+        self.rejected.flush()
         while data := self._odometry.take():
             try:
                 state = read_odometry(data)
             except CommandError as error:
-                self._report(str(error))
+                self.rejected('odometry', str(error))
                 continue
             if self._medium is None:
                 yield state
@@ -77,7 +84,7 @@ class StateSource:
             try:
                 message = read_stamped_pair(data)
             except CommandError as error:
-                self._report(str(error))
+                self.rejected('medium', str(error))
                 continue
             self._velocities.append((message.stamp_ns, tuple(message.first.tolist())))
 
@@ -93,6 +100,3 @@ class StateSource:
                 velocities.popleft()
             if behind == 0:
                 yield StampedState(stamp_ns, state.state._replace(medium_w=velocity_w))
-
-    def _report(self, fault: str) -> None:
-        self._log.error(fault, throttle_duration_sec=1.0)

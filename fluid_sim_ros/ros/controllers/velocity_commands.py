@@ -12,6 +12,7 @@ from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import read_pair, read_stamped_pair
 from fluid_sim_ros.messages.commands import TWIST
 from fluid_sim_ros.messages.topic import NEWEST
+from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.raw import PolledSubscription
 
 _PLAIN = 'geometry_msgs/msg/Twist'
@@ -73,7 +74,8 @@ class VelocityCommands:
         timeout: Callable[[], float],
         warn: Callable[[str], None],
     ) -> None:
-        self._log, self._timeout, self._warn = node.get_logger(), timeout, warn
+        self._timeout, self._warn = timeout, warn
+        self._rejected = ThrottledLog(node.get_logger().error)
         self._most = reach.most
         self._guide = VelocityGuide(reach.lead, reach.upward)
         self._plain = PolledSubscription(node, _PLAIN, f'{vehicle}/cmd_vel', NEWEST)
@@ -86,6 +88,7 @@ class VelocityCommands:
 
     def take(self) -> None:
         """Take the newest message; a wrong one is rejected with a word."""
+        self._rejected.flush()
         try:
             if data := self._plain.take():
                 self._accept(*(pair.tolist() for pair in read_pair(data)))
@@ -98,7 +101,7 @@ class VelocityCommands:
                     )
                 self._accept(message.first.tolist(), message.second.tolist())
         except CommandError as error:
-            self._log.error(f'cmd_vel rejected: {error}', throttle_duration_sec=1.0)
+            self._rejected('cmd_vel', f'cmd_vel rejected: {error}')
 
     def forget(self) -> None:
         """Follow no velocity until the next message: a waypoint came, or a reset."""
