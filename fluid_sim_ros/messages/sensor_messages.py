@@ -22,7 +22,7 @@ class Layout:
         Members that hold the numbers of each quantity of a `Reading`.
     variances
         Member for the variances of each quantity: a number, or a covariance matrix; what a matrix
-        has beyond the quantity is not measured.
+        has beyond the quantity is not measured. Empty: the message has no place for them.
     size
         Rows of such a matrix.
     limits
@@ -55,6 +55,8 @@ _LAYOUTS = {
     reading.RANGE: Layout(
         (('range',),), ('variance',), size=1, limits=('min_range', 'max_range')
     ),
+    # a scan cannot state variances
+    reading.SCAN: Layout((('ranges',),), ('',), limits=('range_min', 'range_max')),
     reading.VELOCITY: Layout((('twist.twist.linear',),), ('twist.covariance',), size=6),
 }  # fmt: skip
 

@@ -124,14 +124,17 @@ def _constants(sensor: Sensor, reading: Reading) -> dict[str, Any]:
     """Return what stays in a message: its frame, and the variances of the sensor's errors."""
     layout = layout_of(reading.message)
     constants: dict[str, Any] = {
-        'header.frame_id': reading.frame or sensor.frame, **layout.constants, **reading.constants,
+        'header.frame_id': reading.frame or sensor.frame, **layout.constants,
+        **sensor.constants(reading),
     }  # fmt: skip
     for quantity, member in zip(reading.quantities, layout.variances, strict=True):
         channels: list[Channel] = [getattr(sensor.config, key) for key in quantity.channels]
         variances = [channel.variance(sensor.config.rate) for channel in channels]
         if len(variances) == 1:
             variances *= getattr(sensor, quantity.name).size
-        if layout.size == 1:
+        if not member:
+            pass  # this message cannot say it
+        elif layout.size == 1:
             (constants[member],) = variances
         else:
             variances += [UNKNOWN] * (layout.size - len(variances))

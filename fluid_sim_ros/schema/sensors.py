@@ -189,6 +189,52 @@ class DvlFile(SensorFile):
     beam_angle: Annotated[Number, Field(ge=0, lt=90)] = 22.5
 
 
+class ScanFile(SensorFile):
+    """
+    Distances along a fan of beams in the x-y plane of its axes [m]; beyond the range infinite.
+
+    ``angles`` [deg] are those of the first and the last of the ``beams``, from x counter-clockwise
+    about z.
+    """
+
+    kind = 'scan'
+    distance: Channel = Channel()
+    beams: Annotated[int, Field(ge=2, le=4096)] = 360
+    angles: Limits = [-180.0, 180.0]
+
+    @model_validator(mode='after')
+    def _angles_are_ordered(self) -> 'ScanFile':
+        low, high = self.angles
+        if not -360.0 <= low < high <= 360.0:
+            raise ValueError('angles: the first must be below the second, both within 360 deg')
+        return self
+
+
+class LidarFile(ScanFile):
+    """Distances by light [m], in a fan of beams."""
+
+    kind = 'lidar'
+
+
+class SonarFile(ScanFile):
+    """
+    Distances by sound in water [m], in a fan of beams.
+
+    ``loss`` is the transmission loss there and back at which an echo is no longer heard [dB],
+    ``frequency`` that of the sound [Hz]; ``temperature`` [degC], ``salinity`` [g/kg] and ``depth``
+    [m] are those of the water that absorbs it.
+    """
+
+    kind = 'sonar'
+    beams: Annotated[int, Field(ge=2, le=4096)] = 64
+    angles: Limits = [-60.0, 60.0]
+    loss: Positive = 110.0
+    frequency: Annotated[Number, Field(ge=100, le=1e6)] = 2e5
+    temperature: Annotated[Number, Field(ge=-6, le=35)] = 10.0
+    salinity: Annotated[Number, Field(ge=0, le=50)] = 35.0
+    depth: Annotated[Number, Field(ge=0, le=7000)] = 0.0
+
+
 class SensorsFile(Strict):
     """
     The sensors of a vehicle.
@@ -206,6 +252,8 @@ class SensorsFile(Strict):
     airspeed: AirspeedFile | None = None
     rangefinder: RangefinderFile | None = None
     dvl: DvlFile | None = None
+    lidar: LidarFile | None = None
+    sonar: SonarFile | None = None
     dither: bool = False
 
 

@@ -27,8 +27,16 @@ _STEP = 1e-6
 _X_TO_Z = np.array([math.sqrt(0.5), 0.0, -math.sqrt(0.5), 0.0])
 
 
-class _Looking(Sensor):
-    """A sensor with rays; needs the geoms' places at this boundary, which come with the forces."""
+class Looking(Sensor):
+    """
+    A sensor with rays; needs the geoms' places at this boundary, which come with the forces.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
+
+    """
 
     needs_forces = True
 
@@ -55,7 +63,7 @@ class _Looking(Sensor):
         return math.inf
 
 
-class Rangefinder(_Looking, file=RangefinderFile):
+class Rangefinder(Looking, file=RangefinderFile):
     """
     Distance to the nearest geom along a ray.
 
@@ -102,7 +110,7 @@ class Rangefinder(_Looking, file=RangefinderFile):
         self.distance = float(self.values[0])
 
 
-class Dvl(_Looking, file=DvlFile):
+class Dvl(Looking, file=DvlFile):
     """
     Velocity over the bed.
 

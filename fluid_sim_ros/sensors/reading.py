@@ -63,6 +63,7 @@ MAGNETIC_FIELD = 'sensor_msgs/msg/MagneticField'
 FLUID_PRESSURE = 'sensor_msgs/msg/FluidPressure'
 NAV_SAT_FIX = 'sensor_msgs/msg/NavSatFix'
 RANGE = 'sensor_msgs/msg/Range'
+SCAN = 'sensor_msgs/msg/LaserScan'
 VELOCITY = 'geometry_msgs/msg/TwistWithCovarianceStamped'
 
 

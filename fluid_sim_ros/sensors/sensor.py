@@ -2,8 +2,9 @@
 
 from abc import ABC, abstractmethod
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
@@ -122,7 +123,7 @@ class Sensor(ABC):
         self._simulation, self._state = simulation, carrier.state
         self._arm = self.mount.position_b.tolist()
         self._matrix = np.empty(9)
-        channels = [(getattr(config, key), count) for key, count in self.channels]
+        channels = [(getattr(config, key), count) for key, count in self.axes(config)]
         self._errors = Errors(
             channels, float(config.rate), carrier.seed, f'{vehicle.name}/{config.kind}',
             self.dither if carrier.dither else (), self.infinite_beyond,
@@ -178,6 +179,41 @@ class Sensor(ABC):
             self.fresh = True
         if self.fresh:
             self._convert()
+
+    @classmethod
+    def axes(cls, config: SensorFile) -> tuple[tuple[str, int], ...]:
+        """
+        Return what is measured.
+
+        Parameters
+        ----------
+        config
+            Of the sensor.
+
+        Returns
+        -------
+        tuple
+            Keys of the file that state the errors, and their numbers of axes.
+
+        """
+        return cls.channels
+
+    def constants(self, reading: Reading) -> Mapping[str, Any]:
+        """
+        Return the fields of a message that never change and that only the sensor knows.
+
+        Parameters
+        ----------
+        reading
+            Its topic.
+
+        Returns
+        -------
+        Mapping
+            Dotted name of the field -> value.
+
+        """
+        return reading.constants
 
     @abstractmethod
     def _measure(self, values: Array) -> bool:

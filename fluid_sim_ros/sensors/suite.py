@@ -13,6 +13,7 @@ from fluid_sim_ros.sensors.imu import Imu
 from fluid_sim_ros.sensors.magnetometer import Magnetometer
 from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.pressure import Barometer, WaterPressure
+from fluid_sim_ros.sensors.scans import Lidar, Sonar
 from fluid_sim_ros.sensors.sensor import CLASSES, SavedSensor, Sensor
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
@@ -43,7 +44,7 @@ class SensorSuite:
 
     Attributes
     ----------
-    imu, magnetometer, barometer, pressure, gnss, airspeed, rangefinder, dvl
+    imu, magnetometer, barometer, pressure, gnss, airspeed, rangefinder, dvl, lidar, sonar
         Each a sensor, or None where the vehicle has none: one for each key of ``sensors:``.
     sensors
         Those that there are.
@@ -65,6 +66,8 @@ class SensorSuite:
     airspeed: Airspeed | None
     rangefinder: Rangefinder | None
     dvl: Dvl | None
+    lidar: Lidar | None
+    sonar: Sonar | None
 
     def __init__(
         self,

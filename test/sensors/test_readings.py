@@ -20,10 +20,10 @@ def test_readings_are_the_numbers_of_the_channels(kind, brick):
     suite = SensorSuite(simulation, 'brick')
     sensor = getattr(suite, kind)
     assert suite.sensors == (sensor,)
-    assert sum(count for _, count in sensor.channels) == len(sensor.values)
+    assert sum(count for _, count in sensor.axes(sensor.config)) == len(sensor.values)
     assert all(getattr(suite, other) is None for other in KINDS if other != kind)
     assert sensor.readings
-    stated = {name for name, _ in sensor.channels}
+    stated = {name for name, _ in sensor.axes(sensor.config)}
     for reading in sensor.readings:
         for quantity in reading.quantities:
             numbers = getattr(sensor, quantity.name)

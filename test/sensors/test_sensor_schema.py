@@ -62,7 +62,7 @@ def test_every_scene_has_suites(scene):
 @pytest.mark.parametrize(
     ('sensors', 'line'),
     [
-        ({'sonar': {}}, "unknown key 'sensors.sonar'; allowed: imu, magnetometer, barometer, "),
+        ({'radar': {}}, "unknown key 'sensors.radar'; allowed: imu, magnetometer, barometer, "),
         ({'imu': {}}, "missing key 'sensors.imu.rate'"),
         ({'imu': {'rate': 0}}, "key 'sensors.imu.rate': must be greater than 0 (got 0)"),
         (

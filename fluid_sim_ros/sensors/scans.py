@@ -1,0 +1,160 @@
+"""Sensors with a fan of beams in one plane: lidar and multi-beam sonar."""
+
+import math
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+
+from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.physics.environment.sound_in_water import audible_range
+from fluid_sim_ros.schema.sensors import LidarFile, ScanFile, SensorFile, SonarFile
+from fluid_sim_ros.sensors.beams import Looking
+from fluid_sim_ros.sensors.mount import Carrier
+from fluid_sim_ros.sensors.reading import SCAN, Quantity, Reading
+
+
+class _Scan(Looking):
+    """
+    Distances along a fan of beams; see ``Lidar``.
+
+    All beams of a reading are of one instant. The vehicle's own geoms are looked through.
+    """
+
+    config: ScanFile
+    infinite_beyond = True
+
+    def __init__(self, carrier: Carrier, config: ScanFile) -> None:
+        super().__init__(carrier, config)
+        first, last = (math.radians(angle) for angle in config.angles)
+        self.angles = np.linspace(first, last, config.beams)
+        fan = np.column_stack([
+            np.cos(self.angles), np.sin(self.angles), np.zeros(config.beams)
+        ])  # fmt: skip
+        self._beams_b = self.mount.to_base(fan)
+        self._hit = np.zeros(config.beams, dtype=np.int32)
+        self._found = np.zeros(config.beams)
+        self.ranges = self.values
+
+    @classmethod
+    def axes(cls, config: SensorFile) -> tuple[tuple[str, int], ...]:
+        """
+        Return what is measured.
+
+        Parameters
+        ----------
+        config
+            A ``ScanFile``.
+
+        Returns
+        -------
+        tuple
+            Key of the file, and number of beams.
+
+        """
+        assert isinstance(config, ScanFile)
+        return (('distance', config.beams),)
+
+    def constants(self, reading: Reading) -> dict[str, Any]:
+        """
+        Return what stays in a message.
+
+        Parameters
+        ----------
+        reading
+            Its topic.
+
+        Returns
+        -------
+        dict
+            Angles of the fan [rad], as sensor_msgs/LaserScan has them.
+
+        """
+        step = (self.angles[-1] - self.angles[0]) / (len(self.angles) - 1)
+        return {
+            'angle_min': self.angles[0], 'angle_max': self.angles[-1], 'angle_increment': step,
+            'scan_time': 1.0 / self.config.rate, 'ranges': [0.0] * len(self.angles),
+        }  # fmt: skip
+
+    def _measure(self, values: Array) -> bool:
+        model, data = self._simulation.model, self._simulation.observed
+        start_w = self._position_w()
+        beams_w = np.ascontiguousarray(self._beams_b @ self._rotation_bw())
+        mujoco.mj_multiRay(
+            model, data, start_w, beams_w.ravel(), None, 1, self._base, self._hit, self._found,
+            None, len(beams_w), mujoco.mjMAXVAL,
+        )  # fmt: skip
+        values[:] = np.where(self._found < 0, math.inf, self._found)
+        for i in np.flatnonzero(self._hit >= 0):
+            # a moving part of the vehicle's own: go on behind it
+            if model.body_rootid[model.geom_bodyid[self._hit[i]]] == self._root:
+                values[i] = self._distance(start_w, beams_w[i])
+        return True
+
+
+class Lidar(_Scan, file=LidarFile):
+    """
+    Distances to the nearest geoms along a fan of beams in the x-y plane of its axes.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
+
+    Attributes
+    ----------
+    angles
+        Of the beams, from x counter-clockwise about z [rad], shape (n,).
+    ranges
+        [m], shape (n,); +inf: nothing within the range, -inf: nearer than the range.
+
+    """
+
+    config: LidarFile
+    readings: ClassVar[tuple[Reading, ...]] = (
+        Reading('scan', SCAN, (Quantity('ranges', 'm', ('distance',)),)),
+    )
+
+
+class Sonar(_Scan, file=SonarFile):
+    """
+    Distances by a fan of acoustic beams in the x-y plane of its axes.
+
+    It hears an echo as long as the transmission loss there and back (spherical spreading and
+    absorption; see ``physics.environment.sound_in_water``) is below ``loss``: that, or the range
+    of ``distance`` where it is shorter, is its maximum range. Beams are straight, without
+    side lobes, echoes of the free surface and reverberation.
+
+    Parameters
+    ----------
+    carrier, config
+        See ``Sensor``.
+
+    Attributes
+    ----------
+    angles, ranges
+        As of ``Lidar``.
+    reach
+        Maximum range [m].
+
+    """
+
+    config: SonarFile
+    readings: ClassVar[tuple[Reading, ...]] = (
+        Reading('sonar/scan', SCAN, (Quantity('ranges', 'm', ('distance',)),)),
+    )
+
+    def __init__(self, carrier: Carrier, config: SonarFile) -> None:
+        self.reach = audible_range(
+            config.loss, config.frequency, config.temperature, config.salinity, config.depth
+        )
+        low, high = config.distance.range or (0.0, math.inf)
+        self.reach = min(self.reach, high)
+        if not low < self.reach:
+            raise ConfigError(
+                f'sensors.sonar: a loss of {config.loss:g} dB reaches {self.reach:.3g} m, not the '
+                f'lowest range of {low:g} m; raise loss, or lower frequency'
+            )
+        distance = config.distance.model_copy(update={'range': [low, self.reach]})
+        super().__init__(carrier, config.model_copy(update={'distance': distance}))

@@ -1,0 +1,100 @@
+"""Lidar and sonar: ranges to known walls, range by absorption, messages."""
+
+import math
+
+import numpy as np
+import pytest
+
+from fluid_sim_ros.messages.sensor_topics import sensor_topics
+from fluid_sim_ros.physics.environment.sound_in_water import absorption, audible_range
+from fluid_sim_ros.sensors import SensorSuite
+
+SONAR = {'rate': 500, 'beams': 31, 'angles': [-60, 60], 'frequency': 2e5, 'loss': 110}
+
+
+def updated(simulation):
+    suite = SensorSuite(simulation, 'brick')
+    suite.update()
+    return suite
+
+
+def turned(simulation, height):
+    """Return the simulation with its x-y plane upright: beams turn from ahead to the floor."""
+    half = math.pi / 4  # about x: y looks up
+    simulation.data.qpos[2:7] = (height, math.cos(half), math.sin(half), 0, 0)
+    return simulation
+
+
+@pytest.mark.parametrize('kind', ['lidar', 'sonar'])
+def test_ranges_to_a_floor_to_1e_6(brick, kind):
+    sensor = {**SONAR, 'angles': [-150, -30]}
+    if kind == 'lidar':  # the floor of the test ends 10 m away
+        sensor = {'rate': 500, 'beams': 37, 'angles': [-160, -20]}
+    scan = getattr(updated(turned(brick(**{kind: sensor}), 2.0)), kind)
+    down = np.sin(scan.angles) < -1e-9
+    expected = np.full(len(scan.angles), np.inf)
+    expected[down] = 2.0 / -np.sin(scan.angles[down])
+    beyond = expected > getattr(scan, 'reach', math.inf)
+    expected[beyond] = np.inf
+    assert down.sum() > 10
+    assert scan.ranges == pytest.approx(expected, rel=1e-6)
+
+
+def test_absorption_of_sea_water_and_of_fresh_water():
+    # Ainslie and McColm (1998), fig. 1: about 36 dB/km at 100 kHz, 10 degC, 35 psu, at the surface
+    assert absorption(1e5, 10.0, 35.0, 0.0) == pytest.approx(0.036, rel=0.1)
+    assert absorption(1e5, 10.0, 0.0, 0.0) < 0.1 * absorption(1e5, 10.0, 35.0, 0.0)
+    assert absorption(1e5, 10.0, 35.0, 1000.0) < absorption(1e5, 10.0, 35.0, 0.0)
+
+
+@pytest.mark.parametrize('frequency', [2e4, 2e5, 7e5])
+def test_the_range_is_where_the_loss_is(frequency):
+    reach = audible_range(110.0, frequency, 10.0, 35.0, 5.0)
+    rate = absorption(frequency, 10.0, 35.0, 5.0)
+    assert 2 * (20 * math.log10(reach) + rate * reach) == pytest.approx(110.0, abs=1e-6)
+
+
+def test_a_higher_frequency_reaches_less_far(brick):
+    low, high = (
+        updated(brick(sonar={**SONAR, 'frequency': f})).sonar.reach for f in (2e5, 7e5)
+    )  # fmt: skip
+    assert low > 1.5 * high
+
+
+def test_noise_and_range_of_a_scan(brick):
+    distance = {'deviation': 0.05, 'range': [0.1, 3.0]}
+    sensor = {'rate': 500, 'beams': 2000, 'angles': [-91, -89], 'distance': distance}
+    ranges = updated(turned(brick(lidar=sensor), 2.0)).lidar.ranges
+    assert np.std(ranges) == pytest.approx(0.05, rel=0.1)
+    assert np.mean(ranges) == pytest.approx(2.0, abs=0.01)
+    far = updated(turned(brick(lidar=sensor), 4.0)).lidar.ranges
+    assert np.isinf(far).all()
+
+
+def test_the_message_holds_the_fan(brick):
+    simulation = turned(brick(lidar={'rate': 500, 'beams': 5, 'angles': [-120, -60]}), 2.0)
+    suite = SensorSuite(simulation, 'brick')
+    (topic,) = sensor_topics(simulation, suite, 'brick')
+    assert (topic.name, topic.type) == ('brick/scan', 'sensor_msgs/msg/LaserScan')
+    simulation.observe(forces=True)
+    data = topic.data()
+    ranges = np.frombuffer(data, '<f4')
+    expected = 2.0 / np.sin(np.radians([120, 105, 90, 75, 60]))
+    places = [i for i in range(len(ranges) - 4) if np.allclose(ranges[i : i + 5], expected)]
+    assert len(places) == 1
+    assert math.radians(15) in [pytest.approx(float(x), rel=1e-6) for x in ranges]
+
+
+@pytest.mark.parametrize(
+    ('kind', 'sensor', 'words'),
+    [
+        ('lidar', {'beams': 1}, 'beams'),
+        ('lidar', {'angles': [10, -10]}, 'angles'),
+        ('lidar', {'angles': [-400, 10]}, 'angles'),
+        ('sonar', {'loss': -3}, 'loss'),
+        ('sonar', {'distance': {'range': [500, 600]}, 'frequency': 7e5}, 'lowest range'),
+    ],
+)
+def test_wrong_input_is_named(brick, kind, sensor, words):
+    with pytest.raises(Exception, match=words):
+        updated(brick(**{kind: {'rate': 500, **sensor}}))
