@@ -9,7 +9,14 @@ from fluid_sim_ros.schema.scene import VehicleFile
 from fluid_sim_ros.schema.sensors import SensorFile, SensorsFile, presets
 from fluid_sim_ros.sensors import SensorSuite
 
-KINDS = {cls.kind: cls for cls in SensorFile.__subclasses__()}
+
+def leaves(cls):
+    """Return the classes below a class that have none below them."""
+    below = [leaf for other in cls.__subclasses__() for leaf in leaves(other)]
+    return below or [cls]
+
+
+KINDS = {cls.kind: cls for cls in leaves(SensorFile)}
 
 
 @pytest.mark.parametrize(
