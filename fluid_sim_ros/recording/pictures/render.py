@@ -10,11 +10,13 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.output.new_file import new_file
+from fluid_sim_ros.output.term_colors import rgb, term_color
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.drawn_arrow import add_arrow
 from fluid_sim_ros.plugins.drawn_waves import add_waves
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.recording.pictures.caption import captioned, pixels_per_metre
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.pictures.poses import LogPoses, latest
 from fluid_sim_ros.recording.pictures.renderer import new_renderer
@@ -22,10 +24,14 @@ from fluid_sim_ros.recording.pictures.tracks import Track
 from fluid_sim_ros.scene.vehicle import weight_in_air
 from fluid_sim_ros.schema.limits import check_limit
 
-#: Arrow per recorded wrench: colour (red, green, blue, opacity); the same as the node's markers.
-_ARROWS = {'total': (0.1, 0.5, 0.9, 1.0), 'thrust': (0.9, 0.5, 0.1, 1.0)}
+#: Fluid forces are drawn longer by so much where there is no buoyancy: they are small in air.
+_IN_AIR = 5.0
+#: Arrows start this far from each other, so that none hides another [extents].
+_BESIDE = 0.12
+#: Forces below this share of the weight are not drawn.
+_LEAST = 2e-3
 #: A force equal to the weight is drawn this long, in extents of the vehicle.
-_LENGTH = 2.0
+_LENGTH = 1.0
 _WIDTH = 0.04
 #: The camera that follows stands this many extents of the vehicle away.
 _DISTANCE = 4.0
@@ -116,7 +122,7 @@ class _Stage:
         model.vis.global_.offheight = max(model.vis.global_.offheight, options.height)
         self._tracks = self._poses.tracks
         name = self._poses.check_vehicle(options.vehicle, log.path)
-        self._followed = self._simulation.vehicles[name].body_id
+        self._name, self._followed = name, self._simulation.vehicles[name].body_id
         self._extent = _extent(model, self._followed)
         self._camera = self._choose_camera()
         self._renderer = new_renderer(model, options.width, options.height)
@@ -151,7 +157,11 @@ class _Stage:
             self._add_arrows(name, track, time)
         center = self._data.xpos[self._followed]
         add_waves(self._renderer.scene, self._model, self._data, center, self._extent)
-        picture: Picture = self._renderer.render()
+        scale = pixels_per_metre(self._model, self._renderer.scene, center, self._options.height)
+        track = self._tracks[self._name]
+        speed = float(np.linalg.norm(track.velocity_b[latest(track.times, time)]))
+        words = f't = {time:.1f} s   {speed:.2f} m/s'
+        picture: Picture = captioned(self._renderer.render(), words, scale)
         return picture
 
     def close(self) -> None:
@@ -183,20 +193,27 @@ class _Stage:
         return camera
 
     def _add_arrows(self, name: str, track: Track, time: float) -> None:
+        """Add an arrow, with its name and size, for each force that is worth one."""
         body = self._simulation.vehicles[name].body_id
         weight = weight_in_air(self._model, body)
-        scene = self._renderer.scene
-        rotation = self._data.xmat[body].reshape(3, 3)
-        start = self._data.xpos[body].copy()
-        for term, colour in _ARROWS.items():
-            rows = track.wrenches.get(term)
-            if rows is None:
-                continue
-            force_w = rotation @ rows[latest(rows[:, 0], time), 1:4]
-            along = force_w / weight * _LENGTH * self._extent
-            if np.linalg.norm(along) < 1e-3 * self._extent:
-                continue
-            add_arrow(scene, start, along, _WIDTH * self._extent, np.array(colour))
+        forces_b = {
+            term: rows[latest(rows[:, 0], time), 1:4]
+            for term, rows in track.wrenches.items() if term != 'total'
+        }  # fmt: skip
+        sizes = {term: float(np.linalg.norm(force)) for term, force in forces_b.items()}
+        shown = sorted(term for term, size in sizes.items() if size > _LEAST * weight)
+        scene, rotation = self._renderer.scene, self._data.xmat[body].reshape(3, 3)
+        across = np.cross(scene.camera[0].forward, scene.camera[0].up)
+        for number, term in enumerate(shown):
+            longer = 1.0 if term == 'thrust' or 'buoyancy' in shown else _IN_AIR
+            along = rotation @ forces_b[term] / weight * _LENGTH * self._extent * longer
+            beside = _BESIDE * self._extent * (number - (len(shown) - 1) / 2)
+            words = f'{term.replace("_", " ")} {sizes[term]:.3g} N'
+            colour = np.array([*(part / 255 for part in rgb(term_color(term))), 1.0])
+            add_arrow(
+                scene, self._data.xpos[body] + across * beside, along, _WIDTH * self._extent,
+                colour, words if longer == 1.0 else f'{words} (drawn {longer:g} x)',
+            )  # fmt: skip
 
 
 def _extent(model: mujoco.MjModel, base: int) -> float:
