@@ -28,6 +28,8 @@ from fluid_sim_ros.schema.limits import check_limit
 _IN_AIR = 5.0
 #: Arrows start this far from each other, so that none hides another [extents].
 _BESIDE = 0.12
+#: Arrows shorter than this have no name beside them [extents].
+_NAMED = 0.12
 #: Forces below this share of the weight are not drawn.
 _LEAST = 2e-3
 #: A force equal to the weight is drawn this long, in extents of the vehicle.
@@ -209,10 +211,14 @@ class _Stage:
             along = rotation @ forces_b[term] / weight * _LENGTH * self._extent * longer
             beside = _BESIDE * self._extent * (number - (len(shown) - 1) / 2)
             words = f'{term.replace("_", " ")} {sizes[term]:.3g} N'
+            if longer != 1.0:
+                words = f'{words} (drawn {longer:g} x)'
+            if np.linalg.norm(along) < _NAMED * self._extent:
+                words = ''  # names of small forces would cover each other
             colour = np.array([*(part / 255 for part in rgb(term_color(term))), 1.0])
             add_arrow(
                 scene, self._data.xpos[body] + across * beside, along, _WIDTH * self._extent,
-                colour, words if longer == 1.0 else f'{words} (drawn {longer:g} x)',
+                colour, words,
             )  # fmt: skip
 
 
