@@ -1,9 +1,10 @@
 """
-What becomes of hostile files: 20,000 logs with right checksums, 2,000 scene files of each kind.
+What becomes of hostile files: 20,000 logs with right checksums, 2,000 files of each other kind.
 
 Logs are mutated record by record (``test.support.hostile.logs``) and opened by the commands that
-open logs, each with its share; YAML, NPZ, NetCDF, CSV and MJCF files are loaded as a scene. Right
-is a result, or an error of ours on one printable line; wrong is a traceback, a crash, more than
+open logs, each with its share; YAML, NPZ, NetCDF, CSV and MJCF files are loaded as a scene; files
+of other software and settings (``test.support.hostile.foreign``) are opened as they are. Right is
+a result, or an error of ours on one printable line; wrong is a traceback, a crash, more than
 10 s of processor time (or a minute of wall time), memory beyond four times the file and 256 MiB, a
 file touched outside of the working folder, or text that a terminal acts on. Fixed seeds.
 Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--divide N]``;
@@ -23,6 +24,8 @@ from typing import Any
 
 from benchmarks.common import ROOT, arguments, write
 from test.support.hostile.files import KINDS, hostile_file
+from test.support.hostile.foreign.kinds import KINDS as FOREIGN
+from test.support.hostile.foreign.kinds import foreign_file, opened
 from test.support.hostile.judge import MOST_WALL, Outside, Trials, Verdict, judged
 
 LOGS, FILES = 20_000, 2_000
@@ -36,16 +39,21 @@ def judge_portion(kind: str, first: int, last: int) -> None:
     warnings.simplefilter('ignore')
     with tempfile.TemporaryDirectory() as folder:
         trials = Trials(Path(folder) / 'peaks')
-        judge = _judge_log(Path(folder)) if kind == 'log' else _judge_file(kind)
         watched = Path(folder) / 'watched'
         watched.mkdir()
         outside = Outside(watched)
+        if kind == 'log':
+            judge = _judge_log(Path(folder))
+        elif kind in KINDS:
+            judge = _judge_file(kind)
+        else:
+            judge = _judge_foreign(kind, outside)
         for seed in range(first, last):
             print(json.dumps({'begun': seed}), flush=True)
             os.chdir(outside.working)
             verdict, command = judge(seed, outside.working)
             os.chdir('/')
-            if outside.changed():
+            if outside.changed() or outside.told(verdict):
                 verdict.outcome = 'outside'
             outside.clear()
             told = vars(verdict) | {'seed': seed, 'command': command}
@@ -76,6 +84,14 @@ def _judge_file(kind: str) -> Any:
         path = hostile_file(kind, seed, working)
         size = sum(file.stat().st_size for file in working.iterdir())
         return judged(lambda: Scene.load(path).compile(), size), 'load'
+
+    return judge
+
+
+def _judge_foreign(kind: str, outside: Outside) -> Any:
+    def judge(seed: int, working: Path) -> tuple[Verdict, str]:
+        path = foreign_file(kind, seed, working, outside.kept)
+        return judged(lambda: opened(kind, path, seed), path.stat().st_size), 'open'
 
     return judge
 
@@ -128,7 +144,7 @@ def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
 
 def main() -> None:
     """Measure and write the result."""
-    kinds = ('log', *KINDS)
+    kinds = ('log', *KINDS, *FOREIGN)
     options = arguments(
         __doc__, 'hostile_files', kinds,
         more={

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fluid_sim_ros.errors import LimitError, listed, printable
+from fluid_sim_ros.errors import listed, printable
 from fluid_sim_ros.flights.flight import ACTUATORS, QUANTITIES, Flight, FlightError, RawLog, Signal
 from fluid_sim_ros.flights.mapping import FlightMap, SignalMap
 from fluid_sim_ros.flights.tidy import find_gaps, find_outliers, usable
@@ -18,7 +18,7 @@ from fluid_sim_ros.flights.units import (
     to_quaternions,
 )
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.schema.limits import limit
+from fluid_sim_ros.schema.limits import check_limit
 
 #: More of the samples going back in time than this is no log of one flight.
 _MOST_BACK = 0.1
@@ -151,8 +151,7 @@ def _signal(
     else:
         thrusters = ()
     times = stream.times + place.offset
-    if len(values) > (most := limit('flight_samples')):
-        raise LimitError(f'{raw.path}: {name} has {len(values)} samples; at most {most} are read')
+    check_limit('flight_samples', len(values), f'{raw.path}: samples of {name}')
     used, dropped = usable(times, values)
     back = dropped.get('at a time that goes back', 0)
     if back > _MOST_BACK * len(times):

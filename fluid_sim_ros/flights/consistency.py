@@ -20,6 +20,8 @@ from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 #: Length of an interval [s], and at least so many samples of the slower signal.
 _INTERVAL, _SAMPLES = {'velocity': 0.5, 'rates': 0.2, 'specific_force': 0.5}, 4
 _MOST_INTERVALS = 4000
+#: So many of them are looked at from the beginning on, half a day at the usual length.
+_MOST_BEGINS = 1_000_000
 #: Shares of the change that two signals may differ by: they agree; no other reading is better.
 _AGREE, _BETTER = 0.35, 0.5
 #: Less motion than this tells nothing: [m], [rad], [m/s] rms over an interval.
@@ -115,7 +117,8 @@ def _intervals(first: Signal, second: Signal, length: float) -> tuple[Array, Arr
     length = max(length, _SAMPLES / slow if slow > 0 else length)
     low = max(first.times[0], second.times[0]) + _LAGS[-1]
     high = min(first.times[-1], second.times[-1]) - _LAGS[-1]
-    begins = np.arange(low, high - length, length / 2)
+    most = low + _MOST_BEGINS * length / 2  # times of a log may be far apart
+    begins = np.arange(low, min(high - length, most), length / 2)
     begins = begins[:: max(1, len(begins) // _MOST_INTERVALS)]
     whole = np.ones(len(begins), dtype=np.bool_)
     for start, stop in (*first.gaps, *second.gaps):
@@ -254,7 +257,7 @@ def _drive(driving: Signal, force: Signal) -> Check:
     rate = min(driving.rate, force.rate, 200.0)
     if rate <= 0 or high - low < 2.0:
         return Check(words, driving.quantity, None, None)
-    times = np.arange(low, high, 1 / rate)[:200_000]
+    times = np.arange(low, min(high, low + 200_001 / rate), 1 / rate)[:200_000]
     shared = force.between(times)[:, 2]
     power = 2 if driving.quantity in ('rotor_speed', 'normalized', 'pulse') else 1
     given = (np.nan_to_num(driving.values) ** power).sum(axis=1)

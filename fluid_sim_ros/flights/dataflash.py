@@ -1,21 +1,18 @@
 """ArduPilot's logs (DataFlash, ``.bin``), by pymavlink's DFReader."""
 
-import struct
 from collections.abc import Collection
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.errors import needed_for, printable
+from fluid_sim_ros.errors import FluidSimError, needed_for, printable
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
+from fluid_sim_ros.flights.strangers import reason_of, silent, silent_native
 from fluid_sim_ros.schema.limits import check_limit
 
 #: Begin of a message, and the type that describes types.
 MAGIC = b'\xa3\x95\x80'
-_FAULTS = (ValueError, KeyError, IndexError, struct.error, TypeError, EOFError, OSError)
 #: Fields that number the instances of a message.
 _INSTANCES = ('I', 'C', 'Instance', 'IMU')
 
@@ -47,11 +44,10 @@ def read_dataflash(path: Path, wanted: Collection[str]) -> RawLog:
         from pymavlink.DFReader import DFReader_binary
 
     try:
-        with redirect_stdout(StringIO()):  # DFReader prints what it thinks of a damaged log
+        with silent_native():
             log: Any = DFReader_binary(str(path))
-    except _FAULTS as error:
-        reason = printable(str(error) or type(error).__name__)
-        raise FlightError(f'{path}: no log that DFReader reads ({reason})') from None
+    except Exception as error:  # noqa: BLE001  DFReader raises anything, Exception itself too
+        raise FlightError(f'{path}: no log that DFReader reads ({reason_of(error)})') from None
     names = {form.name: form for form in log.formats.values()}
     rows: dict[str, list[tuple[float, ...]]] = {}
     fields: dict[str, list[str]] = {}
@@ -60,7 +56,7 @@ def read_dataflash(path: Path, wanted: Collection[str]) -> RawLog:
     types = [name for name in names if name in {w.partition('[')[0] for w in wanted} | {'VER'}]
     count = 0
     try:
-        while (message := log.recv_match(type=types)) is not None:
+        while (message := _next(log, types)) is not None:
             count += 1
             kind, content = message.get_type(), message.to_dict()
             if kind == 'VER':
@@ -76,12 +72,19 @@ def read_dataflash(path: Path, wanted: Collection[str]) -> RawLog:
                 (content.get('TimeUS', 0), *(content[key] for key in numeric))
             )
             check_limit('flight_messages', count, f'{path}: messages')
-    except _FAULTS as error:
-        reason = printable(str(error) or type(error).__name__)
-        faults.append(f'damaged: {reason}; what is before is read')
+    except FluidSimError:
+        raise
+    except Exception as error:  # noqa: BLE001  as above
+        faults.append(f'damaged: {reason_of(error)}; what is before is read')
     streams = {}
     for stream, found in rows.items():
         table = np.array(found, dtype=np.float64)
         columns = {key: table[:, 1 + i] for i, key in enumerate(fields[stream])}
         streams[stream] = Stream(table[:, 0] * 1e-6, columns)
     return RawLog(path, 'ArduPilot DataFlash', 'ardupilot', streams, about, tuple(faults))
+
+
+def _next(log: Any, types: list[str]) -> Any:
+    """Return the next message, or None; DFReader prints a line for each byte that it skips."""
+    with silent():
+        return log.recv_match(type=types)

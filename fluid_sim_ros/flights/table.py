@@ -3,16 +3,19 @@
 import csv
 import io
 import math
+from array import array
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.errors import listed, needed_for, printable
+from fluid_sim_ros.errors import FluidSimError, listed, needed_for, printable
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
 from fluid_sim_ros.flights.units import UNITS
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.schema.limits import check_limit
+from fluid_sim_ros.schema.data_file import open_data
+from fluid_sim_ros.schema.limits import beyond, check_limit, expanded_size, limit
 
 STREAM = 'table'
 #: Names of the column of time, and their units.
@@ -59,27 +62,35 @@ def read_table(path: Path, time: str, unit: str) -> RawLog:
 def _csv(path: Path) -> dict[str, Array]:
     check_limit('csv_bytes', path.stat().st_size, f'{path}: size')
     try:
-        text = path.read_text(encoding='utf-8-sig')
+        with open_data(path) as file, io.TextIOWrapper(file, 'utf-8-sig', newline='') as lines:
+            return _columns(csv.reader(lines), path)
     except UnicodeDecodeError as error:
         raise FlightError(f'{path}: not UTF-8: byte {error.start}') from None
-    rows = csv.reader(io.StringIO(text))
-    try:
-        names = [name.strip() for name in next(rows, [])]
-        values = [row for row in rows if row]
     except csv.Error as error:
         raise FlightError(f'{path}: no CSV: {error}') from None
-    check_limit('csv_rows', len(values), f'{path}: rows')
+
+
+def _columns(rows: Iterator[list[str]], path: Path) -> dict[str, Array]:
+    """Return the columns of a table, row by row: texts of numbers take much memory."""
+    names = [name.strip() for name in next(rows, [])]
+    check_limit('log_columns', len(names), f'{path}: columns')
     if len(set(names)) != len(names) or not names:
         raise FlightError(f'{path}: the first line must name each column once')
-    table = np.empty((len(values), len(names)))
-    for line, row in enumerate(values):
+    numbers, most, count = array('d'), limit('csv_rows'), 0
+    for row in rows:
+        if not row:
+            continue
+        count += 1
+        if count > most:
+            raise beyond('csv_rows', most, f'{path}: more rows')
         if len(row) != len(names):
             raise FlightError(
-                f'{path}: row {line + 2} has {len(row)} cells, the first line names {len(names)}'
+                f'{path}: row {count + 1} has {len(row)} cells, the first line names {len(names)}'
             )
         cells = zip(row, names, strict=True)
-        table[line] = [_number(cell, path, line + 2, name) for cell, name in cells]
-    return {name: table[:, i] for i, name in enumerate(names)}
+        numbers.extend(_number(cell, path, count + 1, name) for cell, name in cells)
+    table = np.frombuffer(numbers, dtype=np.float64).reshape(count, len(names))
+    return {name: table[:, i].copy() for i, name in enumerate(names)}
 
 
 def _number(cell: str, path: Path, row: int, name: str) -> float:
@@ -98,8 +109,18 @@ def _parquet(path: Path) -> dict[str, Array]:
         import pyarrow.parquet as pq
 
     try:
+        about = pq.read_metadata(path)
+        rows, count = about.num_rows, about.num_columns
+        check_limit('log_columns', count, f'{path}: columns')
+        check_limit('flight_samples', rows, f'{path}: rows')
+        if 8 * rows * count > expanded_size(path.stat().st_size):
+            raise beyond(
+                'expansion', limit('expansion'), f'{path}: {rows} rows of {count} columns'
+            )
         table: Any = pq.read_table(path)
-    except (pa.ArrowException, OSError) as error:
+    except FluidSimError:
+        raise
+    except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         reason = printable(' '.join(str(error).split()))
         raise FlightError(f'{path}: no Parquet file ({reason})') from None
     columns = {}

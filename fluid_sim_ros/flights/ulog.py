@@ -1,22 +1,18 @@
 """PX4's logs (ULog), by pyulog."""
 
-import struct
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.errors import needed_for, printable
+from fluid_sim_ros.errors import needed_for
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
+from fluid_sim_ros.flights.strangers import reason_of, silent
 
 MAGIC = b'ULog\x01\x12\x35'
 #: Facts that are shown, by their key in the log.
 _ABOUT = {'ver_hw': 'hardware', 'sys_name': 'software', 'ver_sw_branch': 'branch'}
 _PARAMETERS = {'SYS_AUTOSTART': 'airframe', 'MAV_TYPE': 'MAV_TYPE'}
-#: What a damaged log makes pyulog raise.
-_FAULTS = (ValueError, KeyError, IndexError, struct.error, TypeError, AttributeError, EOFError)
 
 
 def read_ulog(path: Path) -> RawLog:
@@ -41,13 +37,12 @@ def read_ulog(path: Path) -> RawLog:
     """
     with needed_for('a log of PX4'):
         from pyulog import ULog
-        from pyulog.exceptions import ULogException
 
     try:
-        with redirect_stdout(StringIO()):  # pyulog prints what it thinks of a damaged log
+        with silent():
             log: Any = ULog(str(path))
-    except (ULogException, *_FAULTS) as error:
-        raise FlightError(f'{path}: no ULog that pyulog reads ({printable(str(error))})') from None
+    except Exception as error:  # noqa: BLE001  pyulog raises anything on a damaged log
+        raise FlightError(f'{path}: no ULog that pyulog reads ({reason_of(error)})') from None
     streams = {}
     for topic in log.data_list:
         columns = {

@@ -4,14 +4,20 @@ import csv
 import json
 import os
 import platform
+import re
 from pathlib import Path
 from typing import Any
 
 import mujoco
 
 from fluid_sim_ros import __version__
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, printable
 from fluid_sim_ros.lab.charts.pareto import judged
+from fluid_sim_ros.schema.data_file import open_data
+from fluid_sim_ros.schema.limits import check_limit, limit
+
+#: A problem's name becomes that of files.
+_NAME = re.compile(r'\w[\w .+-]{0,199}')
 
 
 def save(result: dict[str, Any], path: Path) -> Path:
@@ -59,11 +65,20 @@ def load(path: Path, key: str) -> dict[str, Any]:
 
     """
     try:
-        result = json.loads(path.read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise ConfigError(f'{path}: cannot be read as a result ({error})') from None
+        with open_data(path) as file:
+            text = file.read(limit('result_bytes') + 1)
+        check_limit('result_bytes', len(text), f'{path}: size')
+        result = json.loads(text)
+    except (OSError, ValueError, RecursionError) as error:
+        reason = printable(' '.join(str(error).split()))
+        raise ConfigError(f'{path}: cannot be read as a result ({reason})') from None
     if not isinstance(result, dict) or key not in result:
         raise ConfigError(f"{path}: is no result of this kind: it has no '{key}'")
+    name = result.get('problem')
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        raise ConfigError(
+            f"{path}: key 'problem': must be a name that files can have: letters, digits, _ . -"
+        )
     return result
 
 

@@ -99,13 +99,15 @@ class SensorFile(Strict):
     def _fill_from_preset(cls, content: Any) -> Any:
         if not isinstance(content, dict) or not content.get('preset'):
             return content
-        known = presets(cls.kind)
-        if content['preset'] not in known:
+        known, preset = presets(cls.kind), content['preset']
+        if not isinstance(preset, str):
+            raise ValueError(f'preset: must be a name; presets: {listed(known)}')
+        if preset not in known:
             raise ValueError(
-                f"preset '{content['preset']}' is not known"
-                f'{did_you_mean(content["preset"], known)} presets: {listed(known)}'
+                f"preset '{preset}' is not known{did_you_mean(preset, known)} "
+                f'presets: {listed(known)}'
             )
-        path = config_folder() / 'sensors' / cls.kind / f'{content["preset"]}.yaml'
+        path = config_folder() / 'sensors' / cls.kind / f'{preset}.yaml'
         return {**read_yaml(path), **content}
 
 

@@ -11,6 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.schema.limits import check_limit
 from fluid_sim_ros.sweep.compiled_run import Row
 from fluid_sim_ros.sweep.sweep_file import SweepFile, as_plain
 
@@ -166,9 +167,12 @@ def _read(path: Path) -> pa.Table | None:
         begin, _, digest = path.stem.partition('-')
         if _digest(path) != digest:  # pages have checksums, names of columns do not
             return None
+        count = pq.read_metadata(path).num_rows
+        check_limit('sweep_runs', count, f'{path}: rows')
         table = pq.read_table(path, page_checksum_verification=True)
-        return table if len(table) and int(begin) == table['run'][0].as_py() else None
-    except (pa.ArrowException, OSError, KeyError, ValueError):
+        runs = pa.array(range(int(begin), int(begin) + count), table['run'].type)
+        return table if count and table['run'].combine_chunks().equals(runs) else None
+    except (pa.ArrowException, OSError, KeyError, ValueError, TypeError):
         return None
 
 

@@ -19,6 +19,7 @@ from fluid_sim_ros.schema.base import (
     Vector,
     parse,
 )
+from fluid_sim_ros.schema.limits import check_limit
 from fluid_sim_ros.schema.settings import Fluid, Integrator, RunSettings
 from fluid_sim_ros.schema.yaml_file import read_yaml
 
@@ -26,8 +27,6 @@ from fluid_sim_ros.schema.yaml_file import read_yaml
 Value = float | int | str
 
 _SETTINGS = ('seed', 'timestep', 'integrator', 'fluid')
-#: Most runs of a sweep: their table is held in memory, some 300 bytes a run and vehicle.
-_MOST_RUNS = 10_000_000
 _PATTERN = re.compile(
     rf'^({"|".join(_SETTINGS)}|(wind|current)\.[xyz]|mass\.[^.]+|(thrust|gain)\.[A-Za-z0-9_]+)$'
 )
@@ -63,6 +62,8 @@ class Variation(Strict):
             limits = getattr(self, name)
             if limits is not None and limits[0] > limits[1]:
                 raise ValueError(f'{name}: {limits[0]:g} is above {limits[1]:g}')
+            if limits is not None and not math.isfinite(limits[1] - limits[0]):
+                raise ValueError(f'{name}: {limits[0]:g} and {limits[1]:g} are too far apart')
         return self
 
     @property
@@ -136,7 +137,7 @@ class SweepFile(Strict):
     integrator: Integrator | None = None
     fluid: Fluid | None = None
     sample_rate: Positive = 10.0
-    seed: int = 0
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 0
     runs: Annotated[int, Field(ge=1)] = 1
     hold: Hold | None = None
     vary: Annotated[dict[str, Variation], Field(min_length=1)]
@@ -153,8 +154,7 @@ class SweepFile(Strict):
         if self.hold is not None and any(key.startswith('thrust.') for key in self.vary):
             raise ValueError("vary: thrust cannot vary where a controller holds ('hold')")
         total = self.runs * math.prod(variation.count for variation in self.vary.values())
-        if total > _MOST_RUNS:
-            raise ValueError(f'{total} runs are more than {_MOST_RUNS}')
+        check_limit('sweep_runs', total, 'runs')
         for key, variation in self.vary.items():
             _check_values(key, variation.grid)
         return self

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.hydro.meshes import reading
 from fluid_sim_ros.hydro.meshes.reader_process import solid_of_file
 from fluid_sim_ros.hydro.meshes.reading import read_mesh
 from fluid_sim_ros.hydro.meshes.shapes import box, together, write_obj, write_stl
 from fluid_sim_ros.hydro.meshes.surface import volume_and_center
+from fluid_sim_ros.schema import limits
 
 trimesh = pytest.importorskip('trimesh')
 SIZE = (0.1, 0.2, 0.3)
@@ -102,10 +102,11 @@ def test_a_path_that_is_no_mesh_file_is_refused_without_opening_it(tmp_path):
     os.mkfifo(tmp_path / 'pipe.stl')
     (tmp_path / 'folder.stl').mkdir()
     with (tmp_path / 'sparse.stl').open('wb') as file:
-        file.truncate(reading.LARGEST_FILE + 1)
+        file.truncate(limits.limit('mesh_bytes') + 1)
     for name, words in {
         'none.stl': 'no such file', 'empty.stl': 'is empty', 'pipe.stl': 'no regular file',
-        'folder.stl': 'no regular file', 'sparse.stl': 'MiB are read', 'x.step': "'.step' is no",
+        'folder.stl': 'no regular file', 'sparse.stl': 'limit mesh_bytes',
+        'x.step': "'.step' is no",
     }.items():  # fmt: skip
         with pytest.raises(ConfigError, match=words):
             read_mesh(tmp_path / name)
@@ -123,11 +124,11 @@ def test_memory_and_time_of_the_reader_are_bounded(tmp_path, monkeypatch):
     with path.open('wb') as file:
         file.write(head)
         file.truncate(len(head) + 24 * count)
-    monkeypatch.setattr(reading, 'LARGEST_FILE', 2**31)
-    with pytest.raises(ConfigError, match=r'needs more than|no triangles|ended by itself'):
+    monkeypatch.setenv(limits.VARIABLE, 'mesh_bytes=3e9,mesh_memory=1000')
+    with pytest.raises(ConfigError, match=r'mesh_memory|no triangles'):
         read_mesh(path)
-    monkeypatch.setattr(reading, 'TIME_LIMIT', 0.05)
-    with pytest.raises(ConfigError, match='not read within'):
+    monkeypatch.setenv(limits.VARIABLE, 'mesh_bytes=3e9,mesh_seconds=0')
+    with pytest.raises(ConfigError, match='mesh_'):
         read_mesh(path)
 
 
@@ -135,7 +136,7 @@ def test_more_triangles_than_are_read(tmp_path):
     path = tmp_path / 'many.stl'
     kind = struct.Struct('<12fH')
     path.write_bytes(b' ' * 80 + struct.pack('<I', 1_000_001) + kind.pack(*range(13)) * 1_000_001)
-    with pytest.raises(ConfigError, match='more than 1000000 triangles'):
+    with pytest.raises(ConfigError, match='limit mesh_triangles = 1000000'):
         solid_of_file(path, 1.0)
 
 

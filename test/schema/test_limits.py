@@ -1,9 +1,12 @@
 """Limits of what files may ask for: each names itself, and is raised by name."""
 
+import re
+
 import pytest
 
 from fluid_sim_ros.errors import ConfigError, LimitError
 from fluid_sim_ros.schema.limits import LIMITS, VARIABLE, check_limit, expanded_size, limit
+from test.support.paths import ROOT
 
 
 @pytest.mark.parametrize('name', LIMITS)
@@ -46,3 +49,13 @@ def test_what_compressed_data_may_become(monkeypatch):
     assert expanded_size(0) == 32 << 20
     monkeypatch.setenv(VARIABLE, 'expansion=1000')
     assert expanded_size(1000) == (32 << 20) + 1_000_000
+
+
+def test_every_limit_is_one_that_something_asks_for():
+    """Each is checked, or stated where it ends a process, by its name; and no other is."""
+    sources = (ROOT / 'fluid_sim_ros').rglob('*.py')
+    text = '\n'.join(path.read_text() for path in sources if path.name != 'limits.py')
+    asked = set(re.findall(r"(?:check_limit|beyond|limit)\(\s*'(\w+)'", text))
+    limits_file = (ROOT / 'fluid_sim_ros' / 'schema' / 'limits.py').read_text()
+    asked |= set(re.findall(r"\blimit\('(\w+)'\)", limits_file))
+    assert asked - {'name'} == set(LIMITS)

@@ -12,7 +12,7 @@ from fluid_sim_ros.cli.lab.tables import fronts_table
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.reality.chart_against import add_against, chart_flight
 from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_of_parts
-from fluid_sim_ros.errors import ConfigError, FluidSimError
+from fluid_sim_ros.errors import ConfigError, FluidSimError, printable
 
 if TYPE_CHECKING:
     from fluid_sim_ros.lab.problems.problem import Problem
@@ -101,6 +101,8 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
                 found.append(result)
             except _CAUGHT as error:
                 failed[name] = _reason(error)
+                if arguments.saved and not isinstance(error, FluidSimError):
+                    failed[name] = f'{printable(name)}: is no whole chart ({failed[name]})'
         if found:
             files.append(write_chart_page(found, folder / 'chart.html'))
     lines = [f'{name} failed: {reason}' for name, reason in failed.items()]
@@ -116,7 +118,9 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
 
 
 def _reason(error: Exception) -> str:
-    return str(error) if isinstance(error, FluidSimError) else f'{type(error).__name__}: {error}'
+    if isinstance(error, FluidSimError):
+        return str(error)
+    return printable(f'{type(error).__name__}: {" ".join(str(error).split())}')
 
 
 def _charts(

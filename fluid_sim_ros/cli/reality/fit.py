@@ -113,7 +113,7 @@ def _kept(path: Path | None) -> dict[str, float]:
         with open_data(path) as file:
             content = json.loads(file.read())
         return {str(name): float(value) for name, value in content.items()}
-    except (ValueError, AttributeError, TypeError, OSError):
+    except (ValueError, AttributeError, TypeError, OSError, RecursionError, OverflowError):
         raise ConfigError(f'--resume {path}: holds no values of a fit') from None
 
 

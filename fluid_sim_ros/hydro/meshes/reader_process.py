@@ -16,16 +16,15 @@ from typing import Any
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.hydro.meshes.reading import MEMORY, MOST_TRIANGLES, TIME_LIMIT
+from fluid_sim_ros.hydro.meshes.reading import memory_and_time
 from fluid_sim_ros.hydro.meshes.repair import Solid, repaired
 from fluid_sim_ros.hydro.meshes.surface import Surface
 from fluid_sim_ros.hydro.meshes.up_axis import turned_up
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.schema.limits import check_limit
 
 #: Packages without which some formats are not read; trimesh may do without any other.
 _NEEDED = ('trimesh', 'collada', 'lxml')
-#: Instances of a mesh in a scene file, at most.
-_MOST_PIECES = 20_000
 
 
 def main() -> int:
@@ -41,8 +40,10 @@ def main() -> int:
     path, scale, up, result = (
         Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3], Path(sys.argv[4])
     )  # fmt: skip
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (int(TIME_LIMIT), int(TIME_LIMIT)))
+    memory, seconds = memory_and_time(path)
+    resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         rotation, words = turned_up(path, up)
         head = (_read_as_it_is if sys.argv[5:] else _read)(path, scale, rotation, result)
@@ -50,9 +51,11 @@ def main() -> int:
     except ConfigError as error:
         head = {'error': str(error)}
     except MemoryError:
-        head = {'error': f'needs more than {MEMORY >> 30} GiB; export it with fewer triangles'}
+        head = {'memory': True}
     except ModuleNotFoundError as error:
         head = {'missing': error.name}
+    except Exception as error:  # noqa: BLE001  what follows from a stranger's numbers
+        head = {'error': f'cannot be made a solid ({_words(error)})'}
     sys.stdout.write('\n' + json.dumps(head) + '\n')
     return 0
 
@@ -153,8 +156,7 @@ def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
             path, process=False, skip_materials=True, allow_remote=False, maintain_order=True
         )
         nodes = list(scene.graph.nodes_geometry)
-        if len(nodes) > _MOST_PIECES:
-            raise ConfigError(f'{len(nodes)} meshes in it, at most {_MOST_PIECES} are read')
+        check_limit('mesh_pieces', len(nodes), 'meshes in it')
         pieces, count, unit = [], 0, 1.0
         for node in nodes:
             transform, name = scene.graph[node]
@@ -164,10 +166,11 @@ def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
                 continue
             unit = _unit_of(mesh, path)
             count += len(faces)
-            if count > MOST_TRIANGLES:
-                raise ConfigError(f'more than {MOST_TRIANGLES} triangles; export it with fewer')
+            check_limit('mesh_triangles', count, 'triangles (export it with fewer)')
             vertices = np.asarray(mesh.vertices, dtype=np.float64)
             corners = np.asarray(faces, dtype=np.int64)
+            if vertices.shape != (len(vertices), 3) or corners.shape != (len(corners), 3):
+                raise ConfigError('its faces are no triangles in three dimensions')
             if corners.min() < 0 or corners.max() >= len(vertices):
                 raise ConfigError('a face names a vertex that the file does not have')
             turned = np.asarray(transform, dtype=np.float64)
@@ -182,11 +185,14 @@ def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
     except Exception as error:  # a reader of strangers' files raises anything
         if getattr(error, 'name', None) in _NEEDED:
             raise
-        reason = ' '.join(str(error).split())[:160]
         raise ConfigError(
-            f'is no {path.suffix.lower().lstrip(".")} mesh ({type(error).__name__}: {reason})'
+            f'is no {path.suffix.lower().lstrip(".")} mesh ({_words(error)})'
         ) from None
     return pieces, unit
+
+
+def _words(error: Exception) -> str:
+    return f'{type(error).__name__}: {" ".join(str(error).split())[:160]}'
 
 
 def _unit_of(mesh: Any, path: Path) -> float:

@@ -6,7 +6,9 @@ reader, it ends here as one line.
 """
 
 import json
+import math
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -22,15 +24,14 @@ from fluid_sim_ros.hydro.meshes.repair import Solid
 from fluid_sim_ros.hydro.meshes.surface import Surface
 from fluid_sim_ros.interruption import owns
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.schema.limits import VARIABLE, beyond, check_limit, limit
 
 FORMATS = ('stl', 'obj', 'ply', 'glb', 'gltf', 'dae', 'off')
 UNITS = {'m': 1.0, 'cm': 0.01, 'mm': 0.001, 'in': 0.0254, 'ft': 0.3048}
-#: Largest file [bytes] and most triangles that are read.
-LARGEST_FILE = 300 * 2**20
-MOST_TRIANGLES = 1_000_000
-#: What the reading process may use: memory [bytes] and wall time [s].
-MEMORY = 4 * 2**30
-TIME_LIMIT = 120.0
+#: What a file allows for, beyond the limits of memory [bytes] and processor time [s].
+_BYTES_PER_BYTE, _SECONDS_PER_BYTE = 100, 4e-6
+#: Wall time beyond that of the processor, on a busy machine [s].
+_PATIENCE = 30.0
 #: A body larger or smaller than this [m] has its unit asked for.
 _LARGE, _SMALL = 30.0, 5e-3
 
@@ -158,11 +159,7 @@ def _check_file(path: Path) -> None:
             pass
     except OSError as error:
         raise ConfigError(f'{path}: cannot be read ({error.strerror})') from None
-    if size > LARGEST_FILE:
-        raise ConfigError(
-            f'{path}: {size / 2**20:.0f} MiB, at most {LARGEST_FILE >> 20} MiB are read; '
-            'export it with fewer triangles'
-        )
+    check_limit('mesh_bytes', size, f'{path}: size (export it with fewer triangles)')
     if size == 0:
         raise ConfigError(f'{path}: is empty')
 
@@ -181,33 +178,51 @@ def _check_size(path: Path, size: Array) -> None:
         )
 
 
+def memory_and_time(path: Path) -> tuple[int, int]:
+    """
+    Return what the process that reads a file may use: memory [bytes], processor time [s].
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    """
+    size = path.stat().st_size
+    seconds = limit('mesh_seconds') + _SECONDS_PER_BYTE * size
+    return limit('mesh_memory') + _BYTES_PER_BYTE * size, math.ceil(seconds)
+
+
 def _in_a_process(path: Path, scale: float, up: str, result: Path, *mode: str) -> dict[str, Any]:
     """Let the file be read and repaired; return what was said about it."""
     from fluid_sim_ros.hydro.meshes import reader_process
 
     command = [sys.executable, '-m', reader_process.__name__, str(path), repr(scale), up,
                str(result), *mode]  # fmt: skip
+    _, seconds = memory_and_time(path)
     # one thread: each reserves memory, and none is needed
     environment = os.environ | {'OMP_NUM_THREADS': '1', 'OPENBLAS_NUM_THREADS': '1'}
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, errors='replace', check=False,
-            stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, env=environment,
+            stdin=subprocess.DEVNULL, timeout=_PATIENCE + seconds, env=environment,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
-        raise ConfigError(
-            f'{path}: not read within {TIME_LIMIT:g} s; export it with fewer triangles'
-        ) from None
+        raise beyond('mesh_seconds', limit('mesh_seconds'), f'{path}: its time') from None
+    if -done.returncode in (signal.SIGXCPU, signal.SIGKILL):
+        raise beyond('mesh_seconds', limit('mesh_seconds'), f'{path}: its time')
     try:
         head: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     except (IndexError, ValueError):
         raise ConfigError(
             f'{path}: its reader ended by itself (exit code {done.returncode}); the file is '
-            f'damaged, or needs more than {MEMORY >> 30} GiB to be read'
+            f'damaged, or needs more memory than {VARIABLE}=mesh_memory=NUMBER allows'
         ) from None
     missing = head.get('missing')
     if missing:
         raise ModuleNotFoundError(f'No module named {missing!r}', name=str(missing))
+    if head.get('memory'):
+        raise beyond('mesh_memory', limit('mesh_memory'), f'{path}: its memory')
     fault = head.get('error')
     if fault:
         raise ConfigError(f'{path}: {fault}')

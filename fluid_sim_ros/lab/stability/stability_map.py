@@ -13,9 +13,13 @@ from fluid_sim_ros.lab.problems.bodies import AXES, Body, family
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS, known_integrators
 from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
-from fluid_sim_ros.lab.stability.outcomes import outcome
+from fluid_sim_ros.lab.stability.outcomes import OUTCOMES, outcome
+from fluid_sim_ros.schema.data_file import open_data
+from fluid_sim_ros.schema.limits import check_limit, limit
 
 Key = tuple[str, float, float]
+#: What a cell of a file has besides its key.
+_CELL = {'outcome', 'largest', 'last', 'reset_at_s', 'alarm'}
 
 
 def plan(
@@ -138,12 +142,9 @@ def run_map(
         If the file is that of another map.
 
     """
-    cells = {} if restart else _kept(head, path)
-    todo = [
-        key
-        for key in itertools.product(head['integrators'], values(head, 'x'), values(head, 'y'))
-        if key not in cells
-    ]
+    planned = list(itertools.product(head['integrators'], values(head, 'x'), values(head, 'y')))
+    cells = {} if restart else _kept(head, path, frozenset(planned))
+    todo = [key for key in planned if key not in cells]
     path.parent.mkdir(parents=True, exist_ok=True)
     # the file is replaced in one move: a line that was cut off must not merge with the next one
     begun = path.with_suffix('.begun')
@@ -165,14 +166,19 @@ def _row(key: Key, cell: Mapping[str, Any]) -> dict[str, Any]:
     return {'integrator': key[0], 'x': key[1], 'y': key[2], **cell}
 
 
-def _kept(head: Mapping[str, Any], path: Path) -> dict[Key, dict[str, Any]]:
-    """Return the cells of an earlier run; a last line that was cut off does not count."""
+def _kept(
+    head: Mapping[str, Any], path: Path, planned: frozenset[Key]
+) -> dict[Key, dict[str, Any]]:
+    """Return the cells of an earlier run up to a line that was cut off, or is of no cell."""
     if not path.exists():
         return {}
-    first, *lines = path.read_text(encoding='utf-8').splitlines() or ['']
+    with open_data(path) as file:
+        text = file.read(limit('result_bytes') + 1)
+    check_limit('result_bytes', len(text), f'{path}: size')
+    first, *lines = text.splitlines() or [b'']
     try:
         same = json.loads(first) == dict(head)
-    except json.JSONDecodeError:
+    except (ValueError, RecursionError):
         same = False
     if not same:
         raise ConfigError(f'{path}: is of another map; name another folder, or use --restart')
@@ -180,9 +186,12 @@ def _kept(head: Mapping[str, Any], path: Path) -> dict[Key, dict[str, Any]]:
     for line in lines:
         try:
             row = json.loads(line)
-        except json.JSONDecodeError:
+            key = str(row.pop('integrator')), float(row.pop('x')), float(row.pop('y'))
+        except (ValueError, TypeError, LookupError, AttributeError, RecursionError, OverflowError):
+            break  # what follows is computed again
+        if key not in planned or set(row) != _CELL or row['outcome'] not in OUTCOMES:
             break
-        cells[row.pop('integrator'), row.pop('x'), row.pop('y')] = row
+        cells[key] = row
     return cells
 
 

@@ -1,6 +1,5 @@
 """An MJCF model or a mesh as the thing that is imported."""
 
-import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import mujoco
@@ -8,6 +7,7 @@ import mujoco
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.hydro.meshes.reading import FORMATS, read_triangles
 from fluid_sim_ros.new_vehicle.importing.mesh_paths import roots_of
+from fluid_sim_ros.new_vehicle.importing.model_trial import check_files, try_model
 from fluid_sim_ros.new_vehicle.importing.source import Source, fit_for_topics, stl_bytes
 from fluid_sim_ros.new_vehicle.importing.urdf import read_urdf
 from fluid_sim_ros.new_vehicle.importing.xml_source import expand_xacro, read_xml
@@ -52,7 +52,7 @@ def read_source(
     kind = path.suffix.lower().lstrip('.')
     if kind in FORMATS:
         return read_mesh_source(path, unit, up)
-    if kind not in ('urdf', 'xacro', 'xml', 'mjcf'):
+    if kind not in ('urdf', 'xacro', 'xml'):
         raise ConfigError(
             f"{path}: '{path.suffix}' is not imported; allowed: {_KINDS} ({listed(FORMATS)})"
         )
@@ -128,8 +128,8 @@ def read_mjcf(path: Path, packages: list[Path], body: str | None) -> Source:
 
     """
     root = read_xml(path)
-    _check_includes(path, root, packages)
     check_named_files(path, path.read_text('utf-8', 'replace'))
+    try_model(path, check_files(path, root, packages))
     try:
         spec = mujoco.MjSpec.from_file(str(path))
     except (ValueError, mujoco.FatalError) as error:
@@ -152,16 +152,6 @@ def read_mjcf(path: Path, packages: list[Path], body: str | None) -> Source:
     if assets:
         said.append(f'{len(assets)} files copied: {listed(assets)}')
     return Source(path, fit_for_topics(base), spec, base, assets, said=said)
-
-
-def _check_includes(path: Path, root: ElementTree.Element, packages: list[Path]) -> None:
-    roots = roots_of(path, packages)
-    for include in root.iter('include'):
-        place = (path.resolve().parent / include.get('file', '')).resolve()
-        if not any(place.is_relative_to(folder) for folder in roots):
-            raise ConfigError(
-                f"{path}: include '{include.get('file')}' lies outside of {roots[0]}"
-            )
 
 
 def _assets(path: Path, spec: mujoco.MjSpec, packages: list[Path]) -> dict[str, bytes]:

@@ -10,9 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.new_vehicle.importing.mesh_paths import package_folder, roots_of
-
-#: Memory [bytes] and processor time [s].
-_MEMORY, _TIME = 2**31, 20
+from fluid_sim_ros.schema.limits import limit
 
 
 def main() -> int:
@@ -26,8 +24,10 @@ def main() -> int:
 
     """
     path, packages = Path(sys.argv[1]).resolve(), [Path(word) for word in sys.argv[2:]]
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (_TIME, _TIME))
+    memory, seconds = limit('xacro_bytes'), limit('xacro_seconds')
+    resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         text = _expanded(path, packages)
     except Exception as error:  # noqa: BLE001  a xacro file raises anything

@@ -15,6 +15,8 @@ from typing import Any
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.recording.model import trial
 
+#: Content of a file that lies outside.
+_SECRET = 'nobody-has-asked-for-this'
 #: What is allowed: processor time [s], wall time on a busy machine [s], and memory beyond four
 #: times the file [bytes].
 MOST_SECONDS, MOST_WALL, MOST_BYTES = 10.0, 60.0, 256 << 20
@@ -161,7 +163,8 @@ class Outside:
         self._folder = folder
         self.working = folder / 'working'
         self.working.mkdir()
-        (folder / 'kept').write_text('as it was')
+        self.kept = folder / 'kept'
+        self.kept.write_text(_SECRET)
         self._before = self._seen()
 
     def _seen(self) -> dict[str, int]:
@@ -174,6 +177,14 @@ class Outside:
     def changed(self) -> bool:
         """Return whether anything beside the working folder is new or another."""
         return self._seen() != self._before
+
+    def told(self, verdict: Verdict) -> bool:
+        """Return whether the content of the file outside came out, in words or in a file."""
+        return _SECRET in verdict.line or any(
+            _SECRET.encode() in file.read_bytes()
+            for file in self.working.rglob('*')
+            if file.is_file()
+        )
 
     def clear(self) -> None:
         """Empty the working folder."""
