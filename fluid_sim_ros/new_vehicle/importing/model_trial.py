@@ -19,7 +19,7 @@ _PATIENCE = 30.0
 
 def check_files(path: Path, root: ElementTree.Element, packages: list[Path]) -> int:
     """
-    Refuse a model that includes or attaches others from elsewhere, at any level.
+    Refuse a model that names files elsewhere, also by what it includes, at any level.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def check_files(path: Path, root: ElementTree.Element, packages: list[Path]) -> 
     Raises
     ------
     ConfigError
-        If a model that it names lies elsewhere, or is no XML.
+        If a file that it names lies elsewhere, or a model is no XML.
 
     """
     roots, seen = roots_of(path, packages), {path.resolve()}
@@ -54,9 +54,14 @@ def check_files(path: Path, root: ElementTree.Element, packages: list[Path]) -> 
         for element in owner.iter():
             named = element.get('file', '')
             places = {(folder / named).resolve() for folder in folders} if named else set()
-            inside = all(any(place.is_relative_to(root) for root in roots) for place in places)
-            if element.tag in ('include', 'model') and not inside:
-                raise ConfigError(f"{path}: {element.tag} '{named}' lies outside of {roots[0]}")
+            # which of the folders counts depends on the element: none may lead outside
+            there = {place for place in places if place.exists()} or places
+            if not all(any(place.is_relative_to(root) for root in roots) for place in there):
+                kind = element.tag if element.tag in ('include', 'model') else 'file'
+                raise ConfigError(
+                    f"{path}: {kind} '{named}' lies outside of {roots[0]}; --package-path allows "
+                    'another folder'
+                )
             for place in places - seen:
                 seen.add(place)
                 check_limit('xml_files', len(seen), f'{path}: files that it names')
