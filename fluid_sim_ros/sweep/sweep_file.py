@@ -19,7 +19,7 @@ from fluid_sim_ros.schema.base import (
     Vector,
     parse,
 )
-from fluid_sim_ros.schema.limits import check_limit
+from fluid_sim_ros.schema.limits import beyond, limit
 from fluid_sim_ros.schema.settings import Fluid, Integrator, RunSettings
 from fluid_sim_ros.schema.yaml_file import read_yaml
 
@@ -154,7 +154,8 @@ class SweepFile(Strict):
         if self.hold is not None and any(key.startswith('thrust.') for key in self.vary):
             raise ValueError("vary: thrust cannot vary where a controller holds ('hold')")
         total = self.runs * math.prod(variation.count for variation in self.vary.values())
-        check_limit('sweep_runs', total, 'runs')
+        if total > (most := limit('sweep_runs')):
+            raise ValueError(str(beyond('sweep_runs', most, f'runs: {total}')))
         for key, variation in self.vary.items():
             _check_values(key, variation.grid)
         return self

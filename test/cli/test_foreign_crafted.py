@@ -83,5 +83,5 @@ def test_entities_are_refused_in_any_encoding(encoding, tmp_path):
 def test_a_sweep_of_a_trillion_runs_is_refused_with_the_limit(tmp_path):
     path = tmp_path / 'a.yaml'
     path.write_text('scene: sphere\nvary: {wind.x: {linspace: [0, 1, 1000000000000]}}\n')
-    with pytest.raises(LimitError, match=r'limit sweep_runs = .* FLUID_SIM_LIMITS=sweep_runs='):
+    with pytest.raises(ConfigError, match=r'limit sweep_runs = .* FLUID_SIM_LIMITS=sweep_runs='):
         read_sweep(path)
