@@ -6,8 +6,9 @@ stepped with RK4 and implicitfast from its start, and then from states, times an
 are no numbers, infinite or huge, with everything read that the library tells. Wrong is a report
 of a sanitizer or an assertion of the C++ library, a crash, or more than 10 s of processor time for
 one model; 95 % are to load. Fixed seeds. Needs g++ with libasan and libubsan.
-Run: ``python -m benchmarks.robustness.valid_models [--quick] [--divide N]``; the result states how
-many were planned and how many of them were judged.
+Run: ``python -m benchmarks.robustness.valid_models [--quick] [--divide N] [--more SECONDS]``; with
+``--more`` those that follow the ones of the result are judged and added to it, for so long. The
+result states how many were planned and how many of them were judged.
 """
 
 import json
@@ -102,9 +103,6 @@ def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
         'most_seconds': round(max(line['seconds'] for line in found), 2),
         'keys': {plugin: len(keys) for plugin, keys in seen.items()},
         'keys_missing': {plugin: keys for plugin, keys in missing.items() if keys},
-        'seldom_keys': {
-            plugin: dict(keys.most_common()[-3:]) for plugin, keys in seen.items() if keys
-        },
         'refused': dict(
             Counter(line['line'][:100] for line in found if line['outcome'] == 'refused')
             .most_common(10)
@@ -114,26 +112,56 @@ def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def together(before: dict[str, Any], now: dict[str, Any]) -> dict[str, Any]:
+    """Return the summary of what was judged before and now."""
+    models = before['models'] + now['models']
+    loaded = sum(part['loaded_share'] * part['models'] for part in (before, now))
+    missing = {
+        plugin: sorted(set(keys) & set(before['keys_missing'].get(plugin, ())))
+        for plugin, keys in now['keys_missing'].items()
+    }
+    return now | {
+        'models': models,
+        'wrong': before['wrong'] + now['wrong'],
+        'loaded_share': loaded / models,
+        'outcomes': dict(Counter(before['outcomes']) + Counter(now['outcomes'])),
+        'most_seconds': max(before['most_seconds'], now['most_seconds']),
+        'keys': {name: max(count, before['keys'][name]) for name, count in now['keys'].items()},
+        'keys_missing': {plugin: keys for plugin, keys in missing.items() if keys},
+        'refused': dict(Counter(before['refused']) + Counter(now['refused'])),
+        'examples_of_wrong': (before['examples_of_wrong'] + now['examples_of_wrong'])[:20],
+    }
+
+
 def main() -> None:
     """Judge, print and write JSON; fail when anything was wrong."""
     options = arguments(
         __doc__, 'valid_models',
-        more={'portion': 'of a process: FIRST LAST', 'divide': 'judge one part in so many'},
+        more={
+            'portion': 'of a process: FIRST LAST', 'divide': 'judge one part in so many',
+            'more': 'go on with those that follow the ones of the result for so long [s]',
+        },
     )  # fmt: skip
     if options.portion:
         judge_portion(*map(int, options.portion.split()))
         return
     options.json = options.json.resolve()
     count = MODELS // (QUICK if options.quick else int(options.divide or 1))
+    before = json.loads(options.json.read_text(encoding='utf-8')) if options.more else {}
+    begin, end = before.get('models', 0), time.monotonic() + float(options.more or 1e9)
+    size = PORTION // 4 if options.more else PORTION
     with TemporaryDirectory() as name, ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = Path(name)
         environment = sanitized_copy(folder)
-        portions = pool.map(
-            lambda first: run_portion(first, min(first + PORTION, count), environment, folder),
-            range(0, count, PORTION),
-        )
+
+        def judged(first: int) -> list[dict[str, Any]]:
+            if time.monotonic() > end:
+                return []  # portions begin in order: no later one is judged either
+            return run_portion(first, min(first + size, count), environment, folder)
+
+        portions = pool.map(judged, range(begin, count, size))
         found = [line for portion in portions for line in portion]
-    result = summary(found)
+    result = together(before, summary(found)) if before else summary(found)
     print({key: result[key] for key in ('models', 'wrong', 'loaded_share', 'outcomes')})
     write(options.json, result)
     sys.exit(1 if result['wrong'] or result['keys_missing'] else 0)
