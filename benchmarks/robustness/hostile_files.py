@@ -63,11 +63,13 @@ def judge_portion(kind: str, first: int, last: int) -> None:
 
 def _judge_log(folder: Path) -> Any:
     from fluid_sim_ros.recording.reader import open_log
-    from test.support.hostile.commands import command_of, judged_log
+    from test.support.hostile.commands import COMMANDS, command_of, judged_log
     from test.support.hostile.logs import Mutator
     from test.support.recorded_flights import record_flight
 
     record_flight(folder / 'flight.mcap', 'quadrotor', seconds=0.5, seed=1)
+    # the libraries that draw take 260 MiB, whatever is drawn
+    COMMANDS['render'][1](folder / 'flight.mcap', folder)
     mutator = Mutator(open_log(folder / 'flight.mcap'))
 
     def judge(seed: int, working: Path) -> tuple[Verdict, str]:
