@@ -32,7 +32,15 @@ class _Nowhere(TextIOBase):
 
 @contextmanager
 def silent() -> Iterator[None]:
-    """Keep what a reader prints of a damaged log from the terminal."""
+    """
+    Keep what a reader prints of a damaged log from the terminal.
+
+    Returns
+    -------
+    context manager
+        In which nothing is printed.
+
+    """
     nowhere = _Nowhere()
     with redirect_stdout(nowhere), redirect_stderr(nowhere):
         yield
@@ -40,7 +48,15 @@ def silent() -> Iterator[None]:
 
 @contextmanager
 def silent_native() -> Iterator[None]:
-    """Keep what a reader's native code prints from the terminal, too; for the whole process."""
+    """
+    Keep what a reader's native code prints from the terminal, too; for the whole process.
+
+    Returns
+    -------
+    context manager
+        In which nothing is printed.
+
+    """
     sys.stderr.flush()
     kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     try:

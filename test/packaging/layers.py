@@ -7,8 +7,8 @@ PACKAGE = 'fluid_sim_ros'
 #: Lowest first: a room imports only rooms before it, and itself.
 ORDER = (
     'errors', 'resources', 'interruption', 'step_clock', 'output',
-    'physics', 'hydro', 'control', 'plugins',
-    'schema', 'scene', 'simulation', 'sensors', 'messages', 'loop', 'flights',
+    'physics', 'control', 'plugins',
+    'schema', 'hydro', 'scene', 'simulation', 'sensors', 'messages', 'loop', 'flights',
     'new_vehicle', 'lab', 'sweep', 'reality', 'recording', 'mavlink', 'view', 'foxglove', 'ros',
     'demo', 'cli',
 )  # fmt: skip

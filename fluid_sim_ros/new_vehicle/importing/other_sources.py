@@ -7,10 +7,10 @@ import mujoco
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.hydro.meshes.reading import FORMATS, read_triangles
 from fluid_sim_ros.new_vehicle.importing.mesh_paths import roots_of
-from fluid_sim_ros.new_vehicle.importing.model_trial import check_files, try_model
 from fluid_sim_ros.new_vehicle.importing.source import Source, fit_for_topics, stl_bytes
+from fluid_sim_ros.new_vehicle.importing.strangers.model_trial import check_files, try_model
+from fluid_sim_ros.new_vehicle.importing.strangers.xml_source import expand_xacro, read_xml
 from fluid_sim_ros.new_vehicle.importing.urdf import read_urdf
-from fluid_sim_ros.new_vehicle.importing.xml_source import expand_xacro, read_xml
 from fluid_sim_ros.scene.named_files import check_named_files
 
 _KINDS = 'a URDF (.urdf, .xacro), an MJCF model (.xml) or a mesh'

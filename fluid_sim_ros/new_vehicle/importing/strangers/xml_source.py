@@ -125,7 +125,7 @@ def expand_xacro(path: Path, packages: list[Path]) -> ElementTree.Element:
 
     """
     read_xml(path)
-    from fluid_sim_ros.new_vehicle.importing import xacro_process
+    from fluid_sim_ros.new_vehicle.importing.strangers import xacro_process
 
     command = [sys.executable, '-m', xacro_process.__name__, str(path), *map(str, packages)]
     try:

@@ -8,9 +8,9 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.new_vehicle.importing import model_process
 from fluid_sim_ros.new_vehicle.importing.mesh_paths import roots_of
-from fluid_sim_ros.new_vehicle.importing.xml_source import read_xml
+from fluid_sim_ros.new_vehicle.importing.strangers import model_process
+from fluid_sim_ros.new_vehicle.importing.strangers.xml_source import read_xml
 from fluid_sim_ros.schema.limits import beyond, check_limit, limit
 
 #: Wall time beyond that of the processor, on a busy machine [s].
