@@ -91,6 +91,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
         for name, make in _charts(arguments, report):
             try:
                 result = make()
+                fronts_table([result], [], [])  # a saved one may lack what is shown
                 stem = folder / result['problem']
                 # written at once: a later failure does not lose it
                 files += [
