@@ -94,7 +94,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
                 fronts_table([result], [], [])  # a saved one may lack what is shown
                 stem = folder / result['problem']
                 # written at once: a later failure does not lose it
-                page = write_chart_page([*found, result], folder / 'chart.html')
+                write_chart_page([*found, result], folder / 'chart.html')
                 files += [
                     results.save(result, stem.with_suffix('.json')),
                     results.write_csv(result, stem.with_suffix('.csv')),
@@ -106,7 +106,7 @@ def _chart(arguments: argparse.Namespace, show: Show) -> int:
                 if arguments.saved and not isinstance(error, FluidSimError):
                     failed[name] = f'{printable(name)}: is no whole chart ({failed[name]})'
         if found:
-            files.append(page)
+            files.append(write_chart_page(found, folder / 'chart.html'))
     lines = [f'{name} failed: {reason}' for name, reason in failed.items()]
     if not found:
         raise ConfigError('; '.join(failed.values()))
