@@ -1,11 +1,12 @@
 """The signals of this process, where it is one of our programs, and blocks that mind them."""
 
 import atexit
+import os
 import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, NoReturn
 
 from fluid_sim_ros.interruption.handler import (
@@ -76,7 +77,8 @@ def leave(code: int) -> NoReturn:
     End the process; a signal that comes on the way out changes nothing.
 
     Python gives signals their default effect while it shuts down, so the second one of a Ctrl-C
-    would make the end look like a crash.
+    would make the end look like a crash. An interrupted program leaves without the rest of that
+    shutdown, in which a library once waited without end.
 
     Parameters
     ----------
@@ -86,6 +88,12 @@ def leave(code: int) -> NoReturn:
     """
     for number in NUMBERS:
         signal.signal(number, signal.SIG_IGN)
+    if interrupted_by():
+        atexit._run_exitfuncs()
+        with suppress(OSError, ValueError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+        os._exit(code)
     sys.exit(code)
 
 

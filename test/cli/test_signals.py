@@ -45,8 +45,8 @@ def signalled(module, number, start, *words):
     [
         ('rich_argparse', INT, ['run', 'sphere']),  # the command line itself
         ('numpy', TERM, ['run', 'sphere']),
-        ('mujoco._structs', INT, ['run', 'sphere']),
-        ('rclpy', TERM, ['replay', 'LOG']),
+        pytest.param('mujoco._structs', INT, ['run', 'sphere'], marks=pytest.mark.full),
+        pytest.param('rclpy', TERM, ['replay', 'LOG'], marks=pytest.mark.full),
     ],
 )
 def test_a_signal_at_any_import_of_a_command(tmp_path, monkeypatch, module, number, words):
@@ -202,6 +202,20 @@ def test_an_end_that_takes_too_long_is_cut():
     """)
     assert done.returncode == 143
     assert done.stderr.startswith('x: ended at once, since an end in order took over')
+
+
+def test_an_interrupted_program_leaves_without_waiting_for_its_threads():
+    done = program("""
+        import atexit, threading
+        threading.Thread(target=time.sleep, args=(20,)).start()
+        atexit.register(print, 'exit function')
+        try:
+            kill()
+        except Interrupted as error:
+            print('told')
+            leave(error.code)
+    """)
+    assert (done.returncode, done.stdout, done.stderr) == (143, 'told\nexit function\n', '')
 
 
 def test_a_signal_after_the_result_changes_nothing():

@@ -99,6 +99,7 @@ def test_a_quota_that_is_used_up_during_a_run(tmp_path):
     check(process, folder, 'Disk quota exceeded', 2.0)
 
 
+@pytest.mark.full
 def test_too_few_file_handles_for_a_recording_are_one_line(tmp_path):
     code = """
         import os, resource, sys

@@ -123,6 +123,7 @@ def test_a_full_disk_is_reported_and_the_node_flies_on(tmp_path):
     assert 'going on without' in process.output
 
 
+@pytest.mark.full
 def test_a_folder_that_is_deleted_is_reported_and_told_by_the_exit_code(tmp_path):
     folder = tmp_path / 'logs'
     with Peer() as peer:
