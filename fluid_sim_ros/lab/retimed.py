@@ -93,9 +93,10 @@ def run_retimed(
                 due = next(waiting, None)
             _go_on(simulation, time, step)
             here = simulation.save_state()
-            _land(simulation, time, step)
+            beyond = _land(simulation, time, step)
             states.append(watch.states())
-            simulation.load_state(here)
+            if beyond:
+                simulation.load_state(here)
     except DivergedError as error:
         return Trajectory(np.array(states), str(error), error.time)
     return Trajectory(np.array(states))
@@ -110,13 +111,15 @@ def _go_on(simulation: Simulation, time: float, step: Fraction) -> None:
     simulation.step(max(0, int((time - simulation.time) / step + _SAME)))
 
 
-def _land(simulation: Simulation, time: float, step: Fraction) -> None:
-    """Take one shorter step to a time, if it is not reached."""
+def _land(simulation: Simulation, time: float, step: Fraction) -> bool:
+    """Take one shorter step to a time, if it is not reached; return whether it was taken."""
     rest = time - simulation.time
-    if rest > _SAME * step:
-        simulation.set_timestep(Fraction(rest).limit_denominator(10**15))
-        simulation.step()
-        simulation.set_timestep(step)
+    if rest <= _SAME * step:
+        return False
+    simulation.set_timestep(Fraction(rest).limit_denominator(10**15))
+    simulation.step()
+    simulation.set_timestep(step)
+    return True
 
 
 def _waves(rung: Rung, duration: float) -> list[tuple[float, str, list[float]]]:
