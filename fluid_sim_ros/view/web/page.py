@@ -17,7 +17,9 @@ from fluid_sim_ros.view.web.scene import Scene
 from fluid_sim_ros.view.web.steering import Steering, script
 
 #: Pictures a second that are sent, and updates a second of numbers and of plots.
-RATE, _NUMBERS_RATE, _PLOTS_RATE = 30.0, 5.0, 3.0
+RATE, _NUMBERS_RATE, _PLOTS_RATE = 24.0, 4.0, 2.0
+#: Of a simulation that goes as fast as it can: every picture takes time from it.
+_FREE_RATE = 10.0
 #: Without a browser nothing is drawn; so often it is looked for one [s].
 _IDLE = 0.1
 #: What was said stays on the page so long [s].
@@ -156,7 +158,8 @@ class Page:
             if begin >= next_plots:
                 next_plots = begin + 1.0 / _PLOTS_RATE
                 self._plots.show()
-            self._ended.wait(max(0.0, begin + 1.0 / RATE - time.monotonic()))
+            rate = RATE if self._source.pace else _FREE_RATE
+            self._ended.wait(max(0.0, begin + 1.0 / rate - time.monotonic()))
 
     def _draw(self, frame: Frame) -> None:
         self._stage.pose(frame)

@@ -12,7 +12,7 @@ from fluid_sim_ros.view.stage import Stage
 from fluid_sim_ros.view.web.shapes import LEFT_OUT, grid_faces
 
 #: Points per side of the water, and how they spread: x = reach sinh(k s)/sinh(k), -1 <= s <= 1.
-_POINTS, _SPREAD, _REACH = 57, 3.5, 60.0
+_POINTS, _SPREAD, _REACH = 41, 3.5, 60.0
 #: Waves are drawn in every second picture: they are slower than what swims in them.
 _EVERY = 2
 _WATER, _WATER_OPACITY = (70, 140, 180), 0.55
