@@ -1,4 +1,4 @@
-"""Logs of the real PX4 and ArduPilot in simulation: no axis, sign or clock of a signal is wrong."""
+"""Logs of PX4 and ArduPilot in simulation: no axis, sign or clock of a signal is wrong."""
 
 import gzip
 import lzma

