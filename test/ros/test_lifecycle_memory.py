@@ -35,5 +35,7 @@ def test_a_lifecycle_cycle_leaves_nothing_behind():
 def test_a_thousand_lifecycle_cycles_leave_nothing_behind():
     before, after = _held(100, 1000, 'quadrotor')
     _check(before, after, 1000)
-    # the heap grows in steps of megabytes
+    # Measured on 2 cores (2026-11-29): 0.12 kB a cycle more allocated, 6.5 kB more resident, no
+    # handle, thread or object. What is resident and not allocated is the heap's: it grows in steps
+    # of megabytes, and mallinfo2 counts that of the main thread only.
     assert (after['resident_kb'] - before['resident_kb']) / 1000 < 10.0
