@@ -73,8 +73,12 @@ def test_topics_are_selected_and_a_reset_begins_a_new_log(tmp_path):
     path = tmp_path / 'a.mcap'
     topics = "['*/odom', '/clock']"
     with Peer() as peer, node(scene='sphere', record__path=path, record__topics=topics) as process:
+        states = peer.collect(Odometry, 'sphere/odom')
         for _ in range(2):
             peer.call(Trigger, 'fluid_sim_node/reset')
+            # the answer comes before the first state of the new log
+            seen = len(states)
+            wait_until(lambda seen=seen: len(states) > seen + 2, 'states after the reset')
         process.signal(signal.SIGINT)
         assert process.wait() == 0
     logs = [read(tmp_path / name) for name in ('a.mcap', 'a_1.mcap', 'a_2.mcap')]
