@@ -2,8 +2,6 @@
 
 import math
 
-from scipy.optimize import brentq
-
 #: No sonar is asked for more [m].
 _FARTHEST = 1e5
 
@@ -74,4 +72,6 @@ def audible_range(
 
     if excess(_FARTHEST) < 0.0:
         return _FARTHEST
+    from scipy.optimize import brentq  # late: SciPy takes 30 MiB wherever a log is opened
+
     return float(brentq(excess, 1.0, _FARTHEST, xtol=1e-9))
