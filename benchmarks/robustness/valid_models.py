@@ -148,11 +148,12 @@ def main() -> None:
     options.json = options.json.resolve()
     count = MODELS // (QUICK if options.quick else int(options.divide or 1))
     before = json.loads(options.json.read_text(encoding='utf-8')) if options.more else {}
-    begin, end = before.get('models', 0), time.monotonic() + float(options.more or 1e9)
+    begin = before.get('models', 0)
     size = PORTION // 4 if options.more else PORTION
     with TemporaryDirectory() as name, ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = Path(name)
         environment = sanitized_copy(folder)
+        end = time.monotonic() + float(options.more or 1e9)
 
         def judged(first: int) -> list[dict[str, Any]]:
             if time.monotonic() > end:
