@@ -15,6 +15,11 @@ from test.support.view_client import client
 from test.support.view_pages import opened, time_of
 
 
+@pytest.fixture(autouse=True)
+def _a_busy_machine_loads_models_slowly(monkeypatch):
+    monkeypatch.setenv('FLUID_SIM_LIMITS', 'model_seconds=150')
+
+
 @pytest.fixture(scope='module')
 def log(tmp_path_factory):
     path = tmp_path_factory.mktemp('log') / 'flight.mcap'
