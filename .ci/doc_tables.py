@@ -69,6 +69,16 @@ def validation() -> str:
     return _table_of('validation')
 
 
+def step_profile() -> str:
+    """Return the table of where a step's time goes, by the benchmark's result."""
+    return _table_of('step_profile')
+
+
+def growth() -> str:
+    """Return the table of what more of something costs, by the benchmark's result."""
+    return _table_of('growth')
+
+
 def _table_of(name: str) -> str:
     path = bench_page.RESULTS / f'{name}.json'
     return bench_page.table_of(name, json.loads(path.read_text(encoding='utf-8')))
@@ -117,6 +127,8 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'added mass': ('doc/hydro.md', added_mass),
     'validation': ('doc/validation.md', validation),
     'questions': ('doc/development.md', site_pages.questions),
+    'step profile': ('doc/speed.md', step_profile),
+    'growth': ('doc/speed.md', growth),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
     'command line': ('doc/reference/command_line.md', reference_pages.command_line),

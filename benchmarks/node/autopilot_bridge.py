@@ -6,15 +6,19 @@ measured is the bridge and the sockets, not a controller. The overhead of an exc
 processor time that the loop spends in the bridge, the simulated sensors and the system's sockets
 included, without that of waiting for the peer, which it does awake for a while. An exchange of
 PX4 covers two steps of the quadrotor. Ratios are of one run. Targets: PX4 at 250 Hz at least 20
-times real time, median overhead of a step 50 us or less.
+times real time, median overhead of a step 50 us or less. ``profile`` holds the shares of the parts
+of an exchange by cProfile's count of processor time, which makes small functions look larger.
 """
 
+import cProfile
 import math
 import multiprocessing
+import pstats
 import socket
 import statistics
 import struct
 import time
+from collections.abc import Callable
 from typing import Any
 
 from benchmarks.common import arguments, wall_seconds, write
@@ -111,7 +115,42 @@ def clock_waiting(pacing: Timed) -> None:
     Watch.readable = timed  # type: ignore[method-assign]
 
 
-def measure(protocol: str, exchanges: int) -> dict[str, float]:
+#: Part of an exchange -> begins of the modules that do it.
+PARTS = {
+    'simulation': ('simulation/', 'scene/', 'plugins/'),
+    'sensors and noise': ('sensors/', 'physics/'),
+    'readings and packets': ('mavlink/px4/', 'mavlink/ardupilot/', 'mavlink/ned', 'mavlink/veh'),
+    'commands and batteries': ('mavlink/',),
+    'loop and clocks': ('loop/', 'step_clock/'),
+    'sockets of the system': ('_socket', 'select'),
+}
+
+
+def profile(exchange: Callable[[int], None], exchanges: int) -> dict[str, float]:
+    """Return each part's share of the loop's processor time; a built-in goes to its caller."""
+    profiler = cProfile.Profile(time.thread_time)
+    profiler.runcall(exchange, exchanges)
+    spent = dict.fromkeys([*PARTS, 'rest'], 0.0)
+    for (file, _, name), row in pstats.Stats(profiler).stats.items():  # type: ignore[attr-defined]
+        own, callers = row[2], row[4]
+        if file != '~' or 'socket' in name or 'poll' in name:
+            spent[_part(file if file != '~' else '_socket')] += own
+            continue
+        for (caller, _, _), (_, _, share, _) in callers.items():
+            spent[_part(caller)] += share
+    whole = sum(spent.values())
+    return {part: seconds / whole for part, seconds in spent.items()}
+
+
+def _part(file: str) -> str:
+    module = file.split('fluid_sim_ros/')[-1]
+    for part, begins in PARTS.items():
+        if module.startswith(begins):
+            return part
+    return 'rest'
+
+
+def measure(protocol: str, exchanges: int) -> dict[str, Any]:
     """Fly with a peer; return speed, its ratio to bare stepping, and the overhead."""
     simulation = Simulation(SCENE)
     bridge = open_bridge(simulation, AutopilotOptions(protocol, port=_free_port(protocol)),
@@ -145,15 +184,17 @@ def measure(protocol: str, exchanges: int) -> dict[str, float]:
         for _ in range(exchanges // _ROUND):
             bridged.append(wall_seconds(lambda: exchange(_ROUND)))
             alone.append(wall_seconds(step_alone))
+        steps = simulation.step_count
+        shares = profile(exchange, exchanges // 10)
     finally:
         process.terminate()
         bridge.close()
-    overheads = sorted(1e6 * spent for spent in pacing.overheads)
+    overheads = sorted(1e6 * spent for spent in pacing.overheads[: len(bridged) * _ROUND])
     wall, bare_wall = statistics.median(bridged), statistics.median(alone)
     return {
         'exchange_rate_hz': rate,
         'exchanges': exchanges,
-        'steps': simulation.step_count,
+        'steps': steps,
         'missed': bridge.counters.missed,
         'real_time_factor': _ROUND / rate / wall,
         'bare_real_time_factor': _ROUND / rate / bare_wall,
@@ -162,6 +203,7 @@ def measure(protocol: str, exchanges: int) -> dict[str, float]:
         'overhead_median_us': statistics.median(overheads),
         'overhead_p99_us': overheads[int(0.99 * len(overheads))],
         'overhead_per_step_median_us': statistics.median(overheads) / per_exchange,
+        'profile': shares,
     }
 
 
@@ -183,6 +225,8 @@ def main() -> None:
             f'({row["share_of_bare_speed"]:.2f} of bare stepping), overhead of an exchange '
             f'{row["overhead_median_us"]:.0f} us (99 %: {row["overhead_p99_us"]:.0f} us)'
         )
+        parts = ', '.join(f'{part} {share:.0%}' for part, share in row['profile'].items())
+        print(f'  of an exchange: {parts}')
     write(options.json, {'scene': SCENE, 'targets': TARGETS, **rows})
 
 
