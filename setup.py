@@ -165,7 +165,7 @@ TEST = [
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
 # Other simulators, for benchmarks/peers/peer_simulators.py alone.
-PEERS = ['jsbsim>=1.3.3,<2', 'rotorpy>=3,<4']
+PEERS = ['jsbsim>=1.3.3,<2', 'rotorpy>=3,<4', 'drone-models>=0.1,<0.2']
 # What the tests run through: make coverage. From 7.10 on coverage.py measures child processes.
 COVERAGE = ['pytest-cov>=7,<8', 'coverage>=7.10,<8', 'gcovr>=8,<9']
 # The documentation site. Sphinx 9.1 needs Python 3.12.

@@ -10,8 +10,12 @@ from matplotlib.axes import Axes
 from fluid_sim_ros.lab.drawing.colors import COLORS
 from fluid_sim_ros.lab.drawing.style import STYLE, save_figure
 
-_FAMILIES = dict(zip(('fluid_sim', 'MuJoCo', 'JSBSim', 'RotorPy', 'SciPy'), COLORS, strict=False))
-_MARKERS = dict(zip(_FAMILIES, 'osDv^', strict=True))
+_FAMILIES = dict(
+    zip(
+        ('fluid_sim', 'MuJoCo', 'JSBSim', 'RotorPy', 'SciPy', 'drone-models'), COLORS, strict=False
+    )
+)
+_MARKERS = dict(zip(_FAMILIES, 'osDv^P', strict=True))
 _LEAST = 1e-14  # what is less is drawn here [m]
 _GAP, _LETTER = 11, 4.6  # between two labels; width of a letter [points]
 
@@ -37,7 +41,7 @@ def _panel(axes: Axes, task: dict[str, Any]) -> None:
     seen: dict[str, int] = {}
     ends = []
     for peer, points in curves.items():
-        family = peer.split()[0]
+        family = _family(peer)
         good = sorted((p for p in points if p['error_m'] is not None), key=_cost)
         if not good:
             continue
@@ -53,19 +57,23 @@ def _panel(axes: Axes, task: dict[str, Any]) -> None:
         axes.axhline(float(target), color='#555555', lw=0.7, ls=(0, (1, 3)))
     left, right = axes.get_xlim()
     low, high = axes.get_ylim()
-    axes.set(xlim=(left, right * 12), ylim=(low, high * 10))  # room for the labels
+    axes.set(xlim=(left, right * 40), ylim=(low, high * 10))  # room for the labels
     _label(axes, ends)
     lost = sorted({p['peer'] for p in task['points']} - {end[2] for end in ends})
     if lost:
         axes.text(
             0.98, 0.98, '\n'.join(f'{peer}: diverges at every timestep' for peer in lost),
-            color=_FAMILIES[lost[0].split()[0]], transform=axes.transAxes, ha='right', va='top',
+            color=_FAMILIES[_family(lost[0])], transform=axes.transAxes, ha='right', va='top',
             fontsize=8,
         )  # fmt: skip
     axes.set(
         title=task['title'], xlabel='processor time per simulated second [us]',
         ylabel='largest position error [m]',
     )  # fmt: skip
+
+
+def _family(peer: str) -> str:
+    return peer.split()[0].rstrip(',')
 
 
 def _cost(found: dict[str, Any]) -> float:

@@ -1,15 +1,17 @@
 """
-Speed at equal error of this package, stock MuJoCo, JSBSim, RotorPy and plain SciPy models.
+Speed at equal error of this package, stock MuJoCo, JSBSim, RotorPy, drone-models and SciPy.
 
 Four tasks of 5 s, the same for all, in one run: a fall with quadratic drag, hover thrust on a
 rolling vehicle, forward flight with rotor drag (closed forms), and a BlueROV2 Heavy in a current
-(DOP853 of Fossen's equations). Each simulator hands out the position every 0.1 s; the error is the
-largest distance from the reference. Time is that of the processor, of stepping alone: medians over
-repeats in mixed order. Needs the extra ``peers``.
+(DOP853 of Fossen's equations). Each simulator hands out the position every second, so that steps
+of up to 1 s count; the error is the largest distance from the reference. Time is that of the
+processor, of stepping alone: medians over repeats in mixed order. Needs the extra ``peers``.
 
 Not the same: JSBSim's planet is round (its reference too); RotorPy and SciPy choose their steps
 themselves, the timestep or tolerance only bounds them; fluid_sim and MuJoCo take all steps between
-two positions in one call, JSBSim and RotorPy need one call from Python for each step.
+two positions in one call, JSBSim and RotorPy need one call from Python for each step. drone-models
+has equations alone, for arrays of vehicles: RK4 in numpy steps them, 1 or 100 at once, and the
+time is that of one.
 """
 
 import random
@@ -38,7 +40,7 @@ from benchmarks.peers.peer_tasks import (
 from benchmarks.peers.peer_underwater import underwater_runs
 from fluid_sim_ros.errors import DivergedError
 
-PEERS = ('jsbsim', 'rotorpy')
+PEERS = ('jsbsim', 'rotorpy', 'drone_models')
 TARGETS = (1e-3, 1e-6)  # errors at which times are compared [m]
 _LEAST_WALL = 0.02  # of one timing: short runs are repeated [s]
 _MOST_RUNS = 20
@@ -48,12 +50,14 @@ class Ladder:
     """Timesteps [s] and tolerances of a comparison."""
 
     def __init__(self, quick: bool) -> None:
-        self.timesteps = (0.1, 0.01) if quick else (0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4)
-        self.rotorpy = (0.1,) if quick else (0.1, 0.05, 0.02, 0.01)
+        steps = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4)
+        self.timesteps = (0.1, 0.01) if quick else steps
+        self.rotorpy = (0.1,) if quick else steps[:5]
+        self.drone_models = (0.1,) if quick else steps[1:8]
         self.tolerances = (
             (1e-3, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12)
         )
-        self.repeats = 1 if quick else 5
+        self.repeats = 1 if quick else 3
 
 
 def missing() -> str:
@@ -66,6 +70,7 @@ def missing() -> str:
 
 def air_runs(task: AirTask, ladder: Ladder) -> list[Run]:
     """Return the runs of every contestant at a task in air."""
+    from benchmarks.peers.peer_drone_models import drone_models_runs
     from benchmarks.peers.peer_jsbsim import jsbsim_runs
     from benchmarks.peers.peer_rotorpy import rotorpy_runs
 
@@ -74,6 +79,7 @@ def air_runs(task: AirTask, ladder: Ladder) -> list[Run]:
         *stock_runs(task, ladder.timesteps),
         *jsbsim_runs(task, ladder.timesteps),
         *rotorpy_runs(task, ladder.rotorpy),
+        *drone_models_runs(task, ladder.drone_models),
         *scipy_runs(air_start(task), air_rates(task), task.reference(TIMES), ladder.tolerances),
     ]
 
@@ -99,7 +105,7 @@ def timing(run: Run) -> tuple[float, float]:
         simulate()
         processor += time.process_time() - begin
         wall += time.perf_counter() - begin_wall
-    scale = 1e6 / (count * DURATION)
+    scale = 1e6 / (count * DURATION * run.vehicles)
     return processor * scale, wall * scale
 
 

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 G = 9.81  # [m/s^2]
 MASS, INERTIA = 2.0, (0.02, 0.02, 0.04)  # of an x500, rounded [kg], [kg m^2]
-DURATION, SAMPLE = 5.0, 0.1  # of a run; between two positions that are asked for [s]
+DURATION, SAMPLE = 5.0, 1.0  # of a run; between two positions that are asked for [s]
 TIMES = SAMPLE * np.arange(1, round(DURATION / SAMPLE) + 1)
 
 
@@ -37,6 +37,7 @@ class Run(NamedTuple):
     setting: str
     prepare: Callable[[], Callable[[], Array]]
     reference: Array
+    vehicles: int = 1  # stepped at once; times are stated for one
 
 
 @dataclass(frozen=True)

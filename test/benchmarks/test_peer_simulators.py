@@ -19,7 +19,7 @@ from fluid_sim_ros.lab.problems.closed_forms import scene_of
 
 
 def contestants(task):
-    """Return runs of every simulator at a task, RotorPy and JSBSim where they are installed."""
+    """Return runs of every simulator at a task, those from outside where they are installed."""
     runs = own_runs(task, [0.02]) + stock_runs(task, [0.02])
     if peers.find_spec('jsbsim'):
         from benchmarks.peers.peer_jsbsim import jsbsim_runs
@@ -29,6 +29,10 @@ def contestants(task):
         from benchmarks.peers.peer_rotorpy import rotorpy_runs
 
         runs += rotorpy_runs(task, [0.1])
+    if peers.find_spec('drone_models'):
+        from benchmarks.peers.peer_drone_models import drone_models_runs
+
+        runs += drone_models_runs(task, [0.02])
     return runs
 
 
@@ -50,7 +54,15 @@ def test_the_closed_form_solves_the_equations(make):
 
 @pytest.mark.parametrize('make', TASKS)
 def test_every_simulator_does_the_task(make):
-    bounds = {'RK4': 1e-7, 'implicitfast': 0.3, 'default': 0.01, 'AB4': 0.01, 'DOP853': 1e-9}
+    bounds = {
+        '1': 1e-7,
+        '100': 1e-7,
+        'RK4': 1e-7,
+        'implicitfast': 0.3,
+        'default': 0.01,
+        'AB4': 0.01,
+        'DOP853': 1e-9,
+    }
     for run in contestants(make()):
         name = run.peer.split()[1]
         bound = 1e-5 if run.peer == 'RotorPy default' else bounds[name]
@@ -116,6 +128,6 @@ def test_without_the_peers_one_line_says_what_to_install(monkeypatch):
     with pytest.raises(SystemExit) as end:
         peers.main()
     line = str(end.value)
-    assert line.startswith('peer_simulators: jsbsim, rotorpy not installed')
+    assert line.startswith('peer_simulators: jsbsim, rotorpy, drone_models not installed')
     assert 'fluid_sim_ros[peers]' in line
     assert '\n' not in line
