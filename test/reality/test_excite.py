@@ -36,6 +36,7 @@ def test_it_keeps_within_space_and_limits(model):
     assert found.seen['distance_m'] <= 1.5
     assert found.seen['speed_m_s'] <= 1.0
     assert found.seen['tilt_rad'] <= 0.4
+    assert not found.seen['touched']
     assert np.ptp(found.thrusts, axis=0).min() > 0.5
     assert bool(found.plan.free.any()) == (model == 'bluerov2_heavy')
     assert np.array_equal(excite(model, 5.0, 0, limits).thrusts, found.thrusts)
@@ -80,9 +81,7 @@ def test_with_noise_the_truth_is_within_three_standard_errors(flown):
 
 
 @pytest.mark.parametrize('model', [
-    pytest.param(name, marks=[pytest.mark.full, pytest.mark.xfail(
-        reason='steps from 20 % off do not settle at the truth with the lag among them')])
-    for name in PARAMETERS
+    pytest.param(name, marks=pytest.mark.full) for name in PARAMETERS
 ])  # fmt: skip
 def test_all_parameters_from_sixty_seconds(model):
     found = truth(model, 60.0)

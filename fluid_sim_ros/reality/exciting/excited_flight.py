@@ -97,7 +97,8 @@ def excite(name: str, duration: float, seed: int, limits: Limits, vehicle: str =
             continue
         seen = found.seen
         if (
-            seen['distance_m'] <= 0.5 * limits.space
+            not seen['touched']
+            and seen['distance_m'] <= 0.5 * limits.space
             and seen['speed_m_s'] <= limits.speed
             and seen['tilt_rad'] <= limits.tilt
         ):
@@ -134,7 +135,7 @@ def _fly(
     todo = plan(seed, times, len(vehicle.thrusters), limits, floats)
     low, high = vehicle.thrust_range.T
     thrusts, rows, speeds = np.empty((len(times), len(vehicle.thrusters))), [], []
-    before = np.zeros(4)
+    before, touched = np.zeros(4), False
     for i in range(len(times)):
         seen = simulation.observe(forces=False)[row].copy()
         before = _move(helm, scale * todo.targets[i], before)
@@ -146,12 +147,14 @@ def _fly(
         rows.append(seen)
         speeds.append(_speeds(simulation, vehicle.thruster_ids))
         simulation.step(every)
+        touched = touched or simulation.data.ncon > 0
     table = np.array(rows)
     flight = _flight(scene, name, times, table, thrusts, np.array(speeds), vehicle.thrusters)
     simulation.close()
     far = np.abs(table[:, nat.POSITION] - first[nat.POSITION]).max()
     _, x, y, _ = table[:, nat.QUATERNION].T
     seen_most = {
+        'touched': float(touched),  # the ground, which windows of a comparison do not have
         'distance_m': float(far),
         'speed_m_s': float(np.linalg.norm(table[:, nat.LINEAR_VELOCITY], axis=1).max()),
         'tilt_rad': float(np.arccos(np.clip(1 - 2 * (x**2 + y**2), -1, 1)).max()),
