@@ -21,6 +21,7 @@ from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.flight import STATE, Flight
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
+from fluid_sim_ros.reality.doubt import doubts
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
@@ -135,6 +136,7 @@ def fit(
                 solver.weigh(sigmas)
                 if task.start == 'measured':
                     solver.distrust(values)
+        lines += doubts(flights, [each.windows for each in shots], task, chosen, values)
         return _result(solver, values, pool, before, count, lines)
 
 
