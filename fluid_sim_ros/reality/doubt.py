@@ -48,7 +48,7 @@ def doubts(
         One line for each flight whose specific force is further off than before.
 
     """
-    before = [parameter.value for parameter in chosen]
+    before = np.array([parameter.value for parameter in chosen])
     lines = []
     for flight, part in zip(flights, windows, strict=True):
         if 'specific_force' not in flight.signals:
@@ -66,7 +66,7 @@ def doubts(
 
 
 def _off(
-    flight: Flight, part: Windows, task: Task, chosen: Sequence[Parameter], values: Sequence[float]
+    flight: Flight, part: Windows, task: Task, chosen: Sequence[Parameter], values: Array
 ) -> float:
     """Return the rms of what the specific force along z lacks, over g."""
     scene = comparable_scene(task.model)
