@@ -22,8 +22,8 @@ from fluid_sim_ros.reality.exciting.excitation import Limits
 from fluid_sim_ros.reality.exciting.excited_flight import excite
 from fluid_sim_ros.reality.exciting.foreseen import NOISE
 from fluid_sim_ros.reality.fit import Fitted, fit
+from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.parameters import find_parameters
-from fluid_sim_ros.reality.solver import Task
 
 DOFS = ('surge', 'sway', 'heave', 'roll', 'pitch', 'yaw')
 #: What flights can tell: a mass is weighed, and of a body in water tells no more than added mass.

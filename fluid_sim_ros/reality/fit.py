@@ -21,13 +21,13 @@ from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.flight import STATE, Flight
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
-from fluid_sim_ros.reality.doubt import doubts
 from fluid_sim_ros.reality.driven import comparable_scene, drive
+from fluid_sim_ros.reality.fitting.doubt import doubts
+from fluid_sim_ros.reality.fitting.shooting import Shots
+from fluid_sim_ros.reality.fitting.solver import Report, Solver, Task, sandwich
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import find_parameters
-from fluid_sim_ros.reality.shooting import Shots
-from fluid_sim_ros.reality.solver import Report, Solver, Task, sandwich
 from fluid_sim_ros.reality.spinning import lead_in
 from fluid_sim_ros.reality.windows import cut
 

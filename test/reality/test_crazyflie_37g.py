@@ -6,8 +6,8 @@ from benchmarks.reality import crazyflie_37g
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import fit
+from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.parameters import all_parameters, edit_of
-from fluid_sim_ros.reality.solver import Task
 from fluid_sim_ros.schema.settings import RunSettings
 from test.support.flown import write_x500
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.flights.reader import read_flight
-from fluid_sim_ros.reality.doubt import doubts
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import cut_shots, fit
+from fluid_sim_ros.reality.fitting.doubt import doubts
+from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.parameters import find_parameters
-from fluid_sim_ros.reality.solver import Task
 from test.support.flown import write_x500
 
 

@@ -13,7 +13,7 @@ from fluid_sim_ros.reality.compare import Part, compare
 from fluid_sim_ros.reality.exciting.excitation import Limits, multisine
 from fluid_sim_ros.reality.exciting.excited_flight import excite
 from fluid_sim_ros.reality.fit import fit
-from fluid_sim_ros.reality.solver import Task
+from fluid_sim_ros.reality.fitting.solver import Task
 
 
 def test_a_multisine_is_seeded_and_as_large_as_asked():

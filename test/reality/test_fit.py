@@ -12,8 +12,8 @@ from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import fit
+from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.parameters import all_parameters, find_parameters
-from fluid_sim_ros.reality.solver import Task
 from test.support.flown import write_x500
 
 NOISE = {'position': 0.002, 'attitude': 0.001, 'velocity': 0.01, 'rates': 0.005}

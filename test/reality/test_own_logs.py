@@ -8,7 +8,7 @@ from fluid_sim_ros.flights.mapping import FlightMap, default_mapping
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.reality.compare import Part, compare
 from fluid_sim_ros.reality.fit import fit
-from fluid_sim_ros.reality.solver import Task
+from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.resources import models_folder
 from test.support.flown import write_x500
 

@@ -17,7 +17,7 @@ from fluid_sim_ros.schema.data_file import open_data
 if TYPE_CHECKING:
     from fluid_sim_ros.flights.flight import Flight
     from fluid_sim_ros.reality.fit import Fitted
-    from fluid_sim_ros.reality.solver import Task
+    from fluid_sim_ros.reality.fitting.solver import Task
 
 
 def add_parser(commands: Any, show: Show) -> None:
@@ -69,9 +69,9 @@ def _fit(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.flights.reader import read_flight
     from fluid_sim_ros.reality.driven import comparable_scene
     from fluid_sim_ros.reality.fit import fit
+    from fluid_sim_ros.reality.fitting.solver import Task
     from fluid_sim_ros.reality.parameters import all_parameters
     from fluid_sim_ros.reality.patch import write_model, write_patch
-    from fluid_sim_ros.reality.solver import Task
 
     scene = comparable_scene(arguments.model)
     if not arguments.parameters:

@@ -10,8 +10,8 @@ import numpy as np
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import cut_shots
+from fluid_sim_ros.reality.fitting.solver import Solver, Task, sandwich
 from fluid_sim_ros.reality.parameters import find_parameters
-from fluid_sim_ros.reality.solver import Solver, Task, sandwich
 
 #: Noise of position, attitude, velocity and rates that is assumed [m], [rad], [m/s], [rad/s].
 NOISE = (0.002, 0.002, 0.01, 0.005)

@@ -11,9 +11,9 @@ from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import Driven, comparable_scene, drive
+from fluid_sim_ros.reality.fitting.shooting import Linear, Shooter, Shots, moved
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import edit_of
-from fluid_sim_ros.reality.shooting import Linear, Shooter, Shots, moved
 from fluid_sim_ros.schema.settings import RunSettings
 
 Report = Callable[[str, int, int], None]

@@ -7,11 +7,11 @@ import numpy as np
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import comparable_scene, drive
+from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import edit_of
 from fluid_sim_ros.reality.residuals import residuals, summary
-from fluid_sim_ros.reality.solver import Task
 from fluid_sim_ros.reality.windows import Windows
 
 #: Specific force that is off by less than this share of g needs no word, nor a growth below this
