@@ -162,6 +162,7 @@ TEST = [
     *VIEW,
     *FOXGLOVE,
     'urdf-parser-py>=0.0.4,<0.1',  # a second reader of robot descriptions
+    'catkin-pkg>=1,<2',  # of rosidl_adapter, which does not ask for it
     'pytest>=8,<10', 'pytest-timeout>=2.2,<3', 'pytest-xdist>=3.5,<4', 'hypothesis>=6.100,<7',
 ]  # fmt: skip
 # Other simulators, for benchmarks/peers/peer_simulators.py alone.

@@ -82,10 +82,10 @@ def test_a_folder_that_is_moved_during_a_run_holds_the_whole_log(tmp_path):
 @pytest.mark.skipif(os.geteuid() != 0, reason='only root makes a disk')
 def test_a_disk_that_fills_during_a_run(tmp_path):
     folder = folder_of(tmp_path)
-    mount = f'mount -t tmpfs -o size=256k none {folder} && exec "$@"'
+    mount = f'mount -t tmpfs -o size=32k none {folder} && exec "$@"'
     before = ['unshare', '--mount', 'sh', '-c', mount, 'sh']
-    process = start(folder, '--duration', '20', before=before)
-    check(process, folder, 'No space left on device', 20.0)
+    process = start(folder, '--pacing', 'realtime', '--duration', '3', before=before)
+    check(process, folder, 'No space left on device', 3.0)
 
 
 @pytest.mark.full

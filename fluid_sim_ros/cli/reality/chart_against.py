@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.reality.compare import outputs_of
 from fluid_sim_ros.cli.reality.info import mapping_of
@@ -22,11 +23,16 @@ def add_against(chart: argparse.ArgumentParser) -> None:
 
     """
     group = chart.add_argument_group('against a flight')
-    group.add_argument(
+    log = group.add_argument(
         '--against', metavar='LOG', help='chart the effects of --model against this flight'
     )
-    group.add_argument('--model', metavar='NAME', help='scene, MJCF or YAML, with --against')
-    group.add_argument('--mapping', metavar='FILE', type=Path, help='as for compare')
+    completion.completed_by(log, completion.files(*completion.FLIGHTS))
+    model = group.add_argument(
+        '--model', metavar='NAME', help='scene, MJCF or YAML, with --against'
+    )
+    completion.completed_by(model, completion.scenes)
+    mapping = group.add_argument('--mapping', metavar='FILE', type=Path, help='as for compare')
+    completion.completed_by(mapping, completion.files('.yaml', '.yml'))
     group.add_argument('--horizon', type=above(0), default=0.5, metavar='S', help='[s] (.5)')
 
 
