@@ -60,6 +60,7 @@ def test_a_model_that_includes_what_includes_another_folder_is_not_imported(tmp_
         read_source(path, [], None, None)
 
 
+@pytest.mark.full
 def test_a_model_of_1e8_replicas_is_not_imported(tmp_path, monkeypatch):
     monkeypatch.setenv(VARIABLE, 'model_seconds=1,model_bytes=3e7')
     path = tmp_path / 'a.xml'

@@ -34,6 +34,7 @@ def test_rungs_are_those_that_the_model_has_and_each_compiles(scene, rungs):
         loaded.compile(edit=edit)
 
 
+@pytest.mark.full
 def test_the_richest_rung_is_the_flights_own_and_the_discretisation_is_seen(log):
     chosen = Chosen(integrators=('implicitfast', 'RK4'), timesteps=(0.01, 0.002))
 

@@ -74,6 +74,7 @@ def test_without_noise_the_truth_is_found_from_an_excited_flight(flown):
     assert max(row['share'] for row in judged(found).values()) < 0.01
 
 
+@pytest.mark.full
 def test_with_noise_the_truth_is_within_three_standard_errors(flown):
     found = fit([noisy(flown.flight, 4)], Task('x500', ('thrust_coefficient', 'rotor_drag')))
 

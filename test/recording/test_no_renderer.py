@@ -8,6 +8,7 @@ import pytest
 
 from test.support.paths import ROOT
 from test.support.recorded_flights import record_flight
+from test.support.volumes import quick
 
 #: MuJoCo chooses how it draws when it is imported; here it finds no OpenGL at all.
 SCRIPT = """\
@@ -25,7 +26,7 @@ for _ in range(3):
 """
 
 
-@pytest.mark.parametrize('chosen', ['off', ''])
+@pytest.mark.parametrize('chosen', quick(['off', ''], 'off'))
 def test_a_second_picture_without_opengl_is_refused_like_the_first(chosen, tmp_path):
     log = tmp_path / 'a.mcap'
     record_flight(log, 'quadrotor', seconds=0.1, seed=1)

@@ -49,6 +49,7 @@ def test_each_parameter_says_what_it_is_and_when_it_may_change(name):
             assert each.floating_point_range[0].from_value == 0.0, each.name
 
 
+@pytest.mark.full
 def test_ranges_choices_and_lengths_are_in_the_description():
     with Peer() as peer, node(scene='sphere'):
         found = described(peer, 'fluid_sim_node')

@@ -14,7 +14,8 @@ XVFB = shutil.which('xvfb-run')
 
 
 @pytest.mark.skipif(XVFB is None, reason='needs xvfb-run (apt-get install xvfb)')
-@pytest.mark.parametrize('scene', ['rov', pytest.param('wave_buoy', marks=pytest.mark.full)])
+@pytest.mark.full
+@pytest.mark.parametrize('scene', ['rov', 'wave_buoy'])
 def test_the_desktop_viewer_draws_the_forces(scene):
     view = [sys.executable, '-m', 'fluid_sim_ros.cli', 'view', scene, '--native',
             '--end-after', '3', '--json', '-']  # fmt: skip
