@@ -37,7 +37,7 @@ def run(block: Block, domain: int) -> str:
     """Run a block in a folder of its own; return its place where it failed."""
     name = f'{block.page}:{block.line}'
     with tempfile.TemporaryDirectory() as folder:
-        for part in ('.venv', 'benchmarks', 'config', 'models'):
+        for part in ('.venv', 'benchmarks', 'config', 'models', 'test'):
             (Path(folder) / part).symlink_to(ROOT / part)
         environment = dict(os.environ, COLUMNS='80', ROS_DOMAIN_ID=str(domain))
         environment['PATH'] = f'{ROOT}/.venv/bin:{environment["PATH"]}'
