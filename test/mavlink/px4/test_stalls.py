@@ -162,9 +162,10 @@ def test_a_fix_is_as_old_as_px4_takes_it_for():
         px4, places = Px4(flight.port, silent=0), {}
         flight.bridge._state._gnss._errors.apply = lambda index, row: 0  # without noise
         for _ in range(500):
-            fields = px4.exchange([1.0] * 4)
-            data = flight.simulation.data
+            fields = px4.sensors()
+            data = flight.simulation.data  # which stands still until it is answered
             places[fields['time_usec']] = data.qpos[2], data.qvel[2]
+            px4.answer(fields['time_usec'], [1.0] * 4)
         gps = px4.latest['HIL_GPS']
     z, speed = places[gps['time_usec']]
     assert speed > 8.0
