@@ -1,4 +1,4 @@
-"""An arrow in a picture of MuJoCo's."""
+"""Arrows in pictures: their measure, and how one gets into a picture of MuJoCo's."""
 
 from typing import Any
 
@@ -52,3 +52,32 @@ def add_arrow(
         tip.label = label
         scene.ngeom += 1
     return True
+
+
+def extent(model: mujoco.MjModel, base: int) -> float:
+    """
+    Return how far the geoms of a body, and of all below it, reach from its origin.
+
+    Parameters
+    ----------
+    model
+        The compiled model.
+    base
+        Id of the body.
+
+    Returns
+    -------
+    float
+        [m]; 0.1 for a body without geoms.
+
+    """
+    reach = 0.0
+    for geom in range(model.ngeom):
+        body = int(model.geom_bodyid[geom])
+        offset = float(np.linalg.norm(model.geom_pos[geom]))
+        while body > base:
+            offset += float(np.linalg.norm(model.body_pos[body]))
+            body = int(model.body_parentid[body])
+        if body == base:
+            reach = max(reach, offset + min(float(model.geom_rbound[geom]), 1e3))
+    return reach or 0.1

@@ -8,6 +8,7 @@ import numpy as np
 
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import surface
+from fluid_sim_ros.plugins.drawn_arrow import extent
 from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
 from fluid_sim_ros.view.frame import Frame
 
@@ -189,35 +190,6 @@ class Stage:
 
         """
         return surface.surface_heights(self.model, self.data, points)
-
-
-def extent(model: mujoco.MjModel, base: int) -> float:
-    """
-    Return how far the geoms of a body, and of all below it, reach from its origin.
-
-    Parameters
-    ----------
-    model
-        The compiled model.
-    base
-        Id of the body.
-
-    Returns
-    -------
-    float
-        [m]; 0.1 for a body without geoms.
-
-    """
-    reach = 0.0
-    for geom in range(model.ngeom):
-        body = int(model.geom_bodyid[geom])
-        offset = float(np.linalg.norm(model.geom_pos[geom]))
-        while body > base:
-            offset += float(np.linalg.norm(model.body_pos[body]))
-            body = int(model.body_parentid[body])
-        if body == base:
-            reach = max(reach, offset + min(float(model.geom_rbound[geom]), 1e3))
-    return reach or 0.1
 
 
 def welded(model: mujoco.MjModel) -> dict[int, list[int]]:

@@ -12,7 +12,7 @@ from fluid_sim_ros.errors import ConfigError, listed
 from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.output.term_colors import rgb, term_color
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.drawn_arrow import add_arrow
+from fluid_sim_ros.plugins.drawn_arrow import add_arrow, extent
 from fluid_sim_ros.plugins.drawn_waves import add_waves
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
@@ -125,7 +125,7 @@ class _Stage:
         self._tracks = self._poses.tracks
         name = self._poses.check_vehicle(options.vehicle, log.path)
         self._name, self._followed = name, self._simulation.vehicles[name].body_id
-        self._extent = _extent(model, self._followed)
+        self._extent = extent(model, self._followed)
         self._camera = self._choose_camera()
         self._renderer = new_renderer(model, options.width, options.height)
 
@@ -220,17 +220,3 @@ class _Stage:
                 scene, self._data.xpos[body] + across * beside, along, _WIDTH * self._extent,
                 colour, words,
             )  # fmt: skip
-
-
-def _extent(model: mujoco.MjModel, base: int) -> float:
-    """Return how far a vehicle's geoms reach from its origin [m]."""
-    reach = 0.0
-    for geom in range(model.ngeom):
-        body = int(model.geom_bodyid[geom])
-        offset = float(np.linalg.norm(model.geom_pos[geom]))
-        while body > base:
-            offset += float(np.linalg.norm(model.body_pos[body]))
-            body = int(model.body_parentid[body])
-        if body == base:
-            reach = max(reach, offset + min(float(model.geom_rbound[geom]), 1e3))
-    return reach or 0.1
