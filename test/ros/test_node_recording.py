@@ -130,8 +130,8 @@ def test_a_full_disk_is_reported_and_the_node_flies_on(tmp_path):
             wait_until(lambda: int(peer.diagnostics['loop'][2]['step']) > step, 'more steps')
             assert 'File too large' in peer.diagnostics['recording'][1]
             process.signal(signal.SIGINT)
-            assert process.wait() == 0
-    assert 'going on without' in process.output
+            assert process.wait() == 1  # the signal is how it ends; the log is lost all the same
+    assert process.output.count('going on without') == 1
 
 
 @pytest.mark.full

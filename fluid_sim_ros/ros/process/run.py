@@ -102,8 +102,8 @@ def run_process(executable: Executable, args: Sequence[str] | None) -> int:
     Returns
     -------
     int
-        Exit code: 0, 1 where it ended by itself and has lost something on the way, or 2 after one
-        line about a FluidSimError. Ended by a signal it is 0, as ``ros2 launch`` wants it.
+        Exit code: 0, also where a signal has ended it, as ``ros2 launch`` wants it; 1 where it has
+        lost something on the way, however it ended; 2 after one line about a FluidSimError.
 
     """
     arguments = list(sys.argv if args is None else args)
@@ -129,7 +129,7 @@ def run_process(executable: Executable, args: Sequence[str] | None) -> int:
         if node is not None:
             node.destroy_node()
         rclpy.shutdown()
-    return LOST if node.lost and not signals.came else 0
+    return LOST if node.lost else 0
 
 
 def _check_handles() -> None:
