@@ -34,7 +34,17 @@ html_show_sourcelink = False
 # Read by repository_pages: headings of the contents, and the pages below them in order.
 site_contents = {
     'Start': ['install', 'view', 'faq'],
-    'Tutorials': ['tutorials/quad_topics', 'tutorials/dive_bluerov2', 'tutorials/*'],
+    'Tutorials': [
+        'tutorials/quad_topics',
+        'tutorials/dive_bluerov2',
+        'tutorials/own_vehicle',
+        'tutorials/weather',
+        'tutorials/autopilot',
+        'tutorials/replay',
+        'tutorials/model_and_timestep',
+        'tutorials/sweep',
+        'tutorials/real_flight',
+    ],
     'Vehicles': ['vehicles/README', 'new_vehicle', 'import', 'hydro', 'fleets'],
     'The world': ['scenes', 'weather', 'waves', 'sensors'],
     'Autopilots': ['autopilots', 'autopilot_px4', 'autopilot_ardupilot'],

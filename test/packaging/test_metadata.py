@@ -52,6 +52,14 @@ def test_colcon_finds_pytest_in_the_test_extra(egg_info):
     assert any(re.match(r'pytest\b(?!-)', line) for line in extras['test'])
 
 
+def test_the_installing_page_lists_every_extra_that_a_user_may_want(egg_info):
+    extras = set(sections((egg_info / 'requires.txt').read_text())) - {''}
+    for_developers = {'test', 'peers', 'dev', 'docs', 'coverage'}
+    rows = (ROOT / 'doc/install.md').read_text().partition('| Extra | For |')[2].split('\n\n')[0]
+    listed = re.findall(r'`(\w+)`', '\n'.join(row.split('|')[1] for row in rows.splitlines()[2:]))
+    assert sorted(listed) == sorted(extras - for_developers)
+
+
 def test_the_mujoco_that_builds_is_the_mujoco_that_runs(egg_info):
     required = sections((egg_info / 'requires.txt').read_text())['']
     build = tomllib.loads((ROOT / 'pyproject.toml').read_text())['build-system']['requires']
