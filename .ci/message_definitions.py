@@ -19,7 +19,8 @@ TYPES = (
     'sensor_msgs/msg/NavSatFix', 'sensor_msgs/msg/FluidPressure', 'geometry_msgs/msg/PoseStamped',
     'geometry_msgs/msg/TwistWithCovarianceStamped', 'sensor_msgs/msg/Range',
     'geometry_msgs/msg/Vector3Stamped', 'sensor_msgs/msg/BatteryState', 'sensor_msgs/msg/Joy',
-    'sensor_msgs/msg/LaserScan',
+    'sensor_msgs/msg/LaserScan', 'sensor_msgs/msg/PointCloud2', 'sensor_msgs/msg/Image',
+    'sensor_msgs/msg/CameraInfo',
 )  # fmt: skip
 # Not among the wheels: the text and the hash of ROS 2 Jazzy's tf2_msgs.
 ELSEWHERE = {

@@ -134,7 +134,7 @@ def _plot(arguments: argparse.Namespace, show: Show) -> int:
 
 
 def _export(arguments: argparse.Namespace, show: Show) -> int:
-    from fluid_sim_ros.recording.export import export
+    from fluid_sim_ros.recording.export import export, left_out
     from fluid_sim_ros.recording.reader import open_log
 
     log = open_log(arguments.log)
@@ -142,7 +142,8 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
     with made_folder(arguments.csv or arguments.parquet, f'--{kind}') as folder:
         files = export(log, folder, kind)
     result = {'log': str(log.path), 'files': files, 'faults': log.faults}
-    lines = [*files, *(f'damaged: {fault}' for fault in log.faults)]
+    lines = [*files, *(f'no table: {name} (pictures, points)' for name in left_out(log))]
+    lines += [*(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, plain_text(lines), result)
     return DAMAGED if log.faults else 0
 

@@ -1,5 +1,6 @@
 """How each type of message holds the numbers of a sensor and their variances."""
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -39,6 +40,15 @@ class Layout:
     constants: Mapping[str, Any] = field(default_factory=dict)
 
 
+_BIG = sys.byteorder == 'big'
+#: Three numbers of single precision for each point; sensor_msgs/PointField.FLOAT32 is 7.
+_POINTS: dict[str, Any] = {
+    'height': 1, 'point_step': 12,
+    'fields': [
+        {'name': axis, 'offset': 4 * i, 'datatype': 7, 'count': 1} for i, axis in enumerate('xyz')
+    ],
+}  # fmt: skip
+
 _LAYOUTS = {
     reading.IMU: Layout(
         (('angular_velocity',), ('linear_acceleration',)),
@@ -57,6 +67,10 @@ _LAYOUTS = {
     ),
     # a scan cannot state variances
     reading.SCAN: Layout((('ranges',),), ('',), limits=('range_min', 'range_max')),
+    # neither can clouds of points and pictures, whose bytes are in the order of the machine
+    reading.CLOUD: Layout((('data',),), ('',), constants=_POINTS | {'is_bigendian': _BIG}),
+    reading.IMAGE: Layout((('data',),), ('',), constants={'is_bigendian': int(_BIG)}),
+    reading.CAMERA_INFO: Layout((), ()),
     reading.VELOCITY: Layout((('twist.twist.linear',),), ('twist.covariance',), size=6),
 }  # fmt: skip
 

@@ -46,7 +46,7 @@ class SensorTopic(StateTopic):
         vehicle: str,
         former: bool = False,
     ) -> None:
-        self._simulation, self._sensor = simulation, sensor
+        self._simulation, self._sensor, self._reading = simulation, sensor, reading
         self._stamp = StampBytes()
         sources = _sources(sensor, reading)
         template = Template.of(reading.message, _constants(sensor, reading), list(sources))
@@ -78,7 +78,7 @@ class SensorTopic(StateTopic):
         """Return the message of a new reading, or nothing if none has appeared."""
         sensor = self._sensor
         sensor.update(self._simulation.tick, self._simulation.time_ns)
-        if not sensor.fresh:
+        if not (sensor.fresh and sensor.prepare(self._reading)):
             return b''
         self._stamp.set(sensor.time_ns)
         return super().data()

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.output.new_file import file_names, new_file
 from fluid_sim_ros.recording.log import Log
+from fluid_sim_ros.sensors.reading import BULKY
 
 #: A text cell that begins with one of these is calculated by spreadsheets.
 _FORMULA = ('=', '+', '-', '@', '\t', '\r')
@@ -16,7 +17,9 @@ _FORMULA = ('=', '+', '-', '@', '\t', '\r')
 
 def export(log: Log, folder: Path, kind: str) -> list[str]:
     """
-    Write every topic that has messages; return the files.
+    Write every topic that has messages of numbers by name; return the files.
+
+    Pictures and clouds of points are none: ``left_out`` names their topics.
 
     The first columns are ``step``, ``log_time_s`` (simulated) and ``publish_time_ns`` (wall).
 
@@ -43,6 +46,8 @@ def export(log: Log, folder: Path, kind: str) -> list[str]:
     files = []
     topics = list(log.topics.values())
     for topic, stem in zip(topics, file_names(t.name for t in topics), strict=True):
+        if topic.type in BULKY:
+            continue
         series = log.series(topic)
         if not series.data:
             continue
@@ -59,6 +64,19 @@ def export(log: Log, folder: Path, kind: str) -> list[str]:
             (_write_csv if kind == 'csv' else _write_parquet)(table, file)
         files.append(str(path))
     return files
+
+
+def left_out(log: Log) -> list[str]:
+    """
+    Return the topics that make no tables: pictures and clouds of points.
+
+    Parameters
+    ----------
+    log
+        The log.
+
+    """
+    return sorted(topic.name for topic in log.topics.values() if topic.type in BULKY)
 
 
 def _write_csv(table: Mapping[str, NDArray[Any]], path: Path) -> None:

@@ -237,6 +237,36 @@ class SonarFile(ScanFile):
     depth: Annotated[Number, Field(ge=0, le=7000)] = 0.0
 
 
+class CameraFile(SensorFile):
+    """
+    Pictures of a pinhole camera that looks along x of its axes, with z up in the picture.
+
+    ``width`` and ``height`` are in pixels, ``field_of_view`` is the angle across the width [deg].
+    ``color`` and ``depth`` say which pictures there are; depths are distances along x, infinite
+    beyond ``depth_range`` [m]. ``frame`` is the name of its optical frame (REP-103).
+    """
+
+    kind = 'camera'
+    width: Annotated[int, Field(ge=1, le=4096)] = 640
+    height: Annotated[int, Field(ge=1, le=4096)] = 480
+    field_of_view: Annotated[Number, Field(ge=1, le=170)] = 60.0
+    color: bool = True
+    depth: bool = False
+    depth_range: Limits = [0.1, 20.0]
+    frame: Annotated[str, Field(pattern=r'^[A-Za-z][A-Za-z0-9_]*_optical_frame$')] = (
+        'camera_optical_frame'
+    )
+
+    @model_validator(mode='after')
+    def _shows_something(self) -> 'CameraFile':
+        if not (self.color or self.depth):
+            raise ValueError('color, depth: one of them must be true')
+        low, high = self.depth_range
+        if not 0.01 <= low < high <= 1000.0:
+            raise ValueError('depth_range: must rise, within 0.01 and 1000 m')
+        return self
+
+
 class SensorsFile(Strict):
     """
     The sensors of a vehicle.
@@ -256,6 +286,7 @@ class SensorsFile(Strict):
     dvl: DvlFile | None = None
     lidar: LidarFile | None = None
     sonar: SonarFile | None = None
+    camera: CameraFile | None = None
     dither: bool = False
 
 

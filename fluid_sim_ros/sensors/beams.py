@@ -7,6 +7,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins.translucent import translucent_geoms
 from fluid_sim_ros.schema.sensors import DvlFile, RangefinderFile, SensorFile
 from fluid_sim_ros.sensors.mount import Carrier
 from fluid_sim_ros.sensors.reading import (
@@ -19,9 +20,9 @@ from fluid_sim_ros.sensors.reading import (
 )
 from fluid_sim_ros.sensors.sensor import Sensor
 
-#: Rays step over the geoms of the vehicle's moving parts, at most this many.
-_OWN_PARTS = 64
-#: How far a ray goes on behind an own part [m].
+#: Rays step over the geoms of the vehicle's moving parts and of water, at most this many.
+_PASSED = 64
+#: How far a ray goes on behind such a geom [m].
 _STEP = 1e-6
 #: A range's frame has its x along the ray; this turn takes x to z.
 _X_TO_Z = np.array([math.sqrt(0.5), 0.0, -math.sqrt(0.5), 0.0])
@@ -44,19 +45,21 @@ class Looking(Sensor):
         super().__init__(carrier, config)
         self._geom = np.zeros(1, dtype=np.int32)
         self._base = carrier.vehicle.body_id
-        self._root = carrier.simulation.model.body_rootid[self._base]
+        model = carrier.simulation.model
+        own = model.body_rootid[model.geom_bodyid] == model.body_rootid[self._base]
+        self._passed = own | translucent_geoms(model)
 
     def _distance(self, start_w: Array, direction_w: Array) -> float:
-        """Return the distance [m] along a unit vector to a geom not of the vehicle, or inf."""
+        """Return the distance [m] along a unit vector to what no ray passes, or inf."""
         model, data = self._simulation.model, self._simulation.observed
         base = self._base
         start, gone = start_w, 0.0
-        for _ in range(_OWN_PARTS):
+        for _ in range(_PASSED):
             distance = mujoco.mj_ray(model, data, start, direction_w, None, 1, base, self._geom)
             if distance < 0:
                 return math.inf
             gone += float(distance)
-            if model.body_rootid[model.geom_bodyid[self._geom[0]]] != self._root:
+            if not self._passed[self._geom[0]]:
                 return gone
             gone += _STEP
             start = start_w + gone * direction_w
@@ -67,7 +70,7 @@ class Rangefinder(Looking, file=RangefinderFile):
     """
     Distance to the nearest geom along a ray.
 
-    The vehicle's own geoms are looked through, as are water surfaces.
+    The vehicle's own geoms are looked through, as is what is translucent: bodies of water.
 
     Parameters
     ----------

@@ -16,7 +16,8 @@ class Quantity:
     unit
         One for all of them, or one for each.
     channels
-        Keys of the sensor's file with their errors: one for all of them, or one for each.
+        Keys of the sensor's file with their errors: one for all of them, or one for each; none
+        for what the message cannot state errors of.
 
     """
 
@@ -64,6 +65,11 @@ FLUID_PRESSURE = 'sensor_msgs/msg/FluidPressure'
 NAV_SAT_FIX = 'sensor_msgs/msg/NavSatFix'
 RANGE = 'sensor_msgs/msg/Range'
 SCAN = 'sensor_msgs/msg/LaserScan'
+CLOUD = 'sensor_msgs/msg/PointCloud2'
+IMAGE = 'sensor_msgs/msg/Image'
+CAMERA_INFO = 'sensor_msgs/msg/CameraInfo'
+#: Messages that hold other data than a few numbers by name: they make no tables or curves.
+BULKY = (CLOUD, IMAGE)
 VELOCITY = 'geometry_msgs/msg/TwistWithCovarianceStamped'
 
 

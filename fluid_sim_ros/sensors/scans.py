@@ -1,7 +1,7 @@
 """Sensors with a fan of beams in one plane: lidar and multi-beam sonar."""
 
 import math
-from typing import Any, ClassVar
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -12,14 +12,23 @@ from fluid_sim_ros.physics.environment.sound_in_water import audible_range
 from fluid_sim_ros.schema.sensors import LidarFile, ScanFile, SensorFile, SonarFile
 from fluid_sim_ros.sensors.beams import Looking
 from fluid_sim_ros.sensors.mount import Carrier
-from fluid_sim_ros.sensors.reading import SCAN, Quantity, Reading
+from fluid_sim_ros.sensors.reading import CLOUD, SCAN, Quantity, Reading
+
+
+def _scan_and_cloud(below: str) -> tuple[Reading, ...]:
+    """Return the topics of a fan: its ranges, and the same as points."""
+    return (
+        Reading(f'{below}scan', SCAN, (Quantity('ranges', 'm', ('distance',)),)),
+        Reading(f'{below}points', CLOUD, (Quantity('points', 'm', ()),)),
+    )
 
 
 class _Scan(Looking):
     """
     Distances along a fan of beams; see ``Lidar``.
 
-    All beams of a reading are of one instant. The vehicle's own geoms are looked through.
+    All beams of a reading are of one instant. The vehicle's own geoms are looked through, and so
+    is what is translucent, such as water.
     """
 
     config: ScanFile
@@ -32,10 +41,12 @@ class _Scan(Looking):
         fan = np.column_stack([
             np.cos(self.angles), np.sin(self.angles), np.zeros(config.beams)
         ])  # fmt: skip
+        self._fan = fan
         self._beams_b = self.mount.to_base(fan)
         self._hit = np.zeros(config.beams, dtype=np.int32)
         self._found = np.zeros(config.beams)
         self.ranges = self.values
+        self.points = np.zeros((config.beams, 3), dtype=np.float32)
 
     @classmethod
     def axes(cls, config: SensorFile) -> tuple[tuple[str, int], ...]:
@@ -68,14 +79,37 @@ class _Scan(Looking):
         Returns
         -------
         dict
-            Angles of the fan [rad], as sensor_msgs/LaserScan has them.
+            Angles of the fan [rad], as sensor_msgs/LaserScan has them, or the size of the cloud.
 
         """
+        if reading.message == CLOUD:
+            count = len(self.angles)
+            return {'width': count, 'row_step': 12 * count, 'data': bytes(12 * count)}
         step = (self.angles[-1] - self.angles[0]) / (len(self.angles) - 1)
         return {
             'angle_min': self.angles[0], 'angle_max': self.angles[-1], 'angle_increment': step,
             'scan_time': 1.0 / self.config.rate, 'ranges': [0.0] * len(self.angles),
         }  # fmt: skip
+
+    def prepare(self, reading: Reading) -> bool:
+        """
+        Turn ranges into points for the cloud.
+
+        Parameters
+        ----------
+        reading
+            Its topic.
+
+        Returns
+        -------
+        bool
+            True.
+
+        """
+        if reading.message == CLOUD:
+            known = np.where(np.isfinite(self.ranges), self.ranges, np.nan)
+            self.points[:] = known[:, np.newaxis] * self._fan
+        return True
 
     def _measure(self, values: Array) -> bool:
         model, data = self._simulation.model, self._simulation.observed
@@ -86,10 +120,8 @@ class _Scan(Looking):
             None, len(beams_w), mujoco.mjMAXVAL,
         )  # fmt: skip
         values[:] = np.where(self._found < 0, math.inf, self._found)
-        for i in np.flatnonzero(self._hit >= 0):
-            # a moving part of the vehicle's own: go on behind it
-            if model.body_rootid[model.geom_bodyid[self._hit[i]]] == self._root:
-                values[i] = self._distance(start_w, beams_w[i])
+        for i in np.flatnonzero((self._hit >= 0) & self._passed[self._hit]):
+            values[i] = self._distance(start_w, beams_w[i])  # go on behind it
         return True
 
 
@@ -108,13 +140,14 @@ class Lidar(_Scan, file=LidarFile):
         Of the beams, from x counter-clockwise about z [rad], shape (n,).
     ranges
         [m], shape (n,); +inf: nothing within the range, -inf: nearer than the range.
+    points
+        What the cloud was last made of: ends of the beams, axes of the sensor [m], shape (n, 3);
+        NaN where the range is infinite.
 
     """
 
     config: LidarFile
-    readings: ClassVar[tuple[Reading, ...]] = (
-        Reading('scan', SCAN, (Quantity('ranges', 'm', ('distance',)),)),
-    )
+    readings = _scan_and_cloud('')
 
 
 class Sonar(_Scan, file=SonarFile):
@@ -133,7 +166,7 @@ class Sonar(_Scan, file=SonarFile):
 
     Attributes
     ----------
-    angles, ranges
+    angles, ranges, points
         As of ``Lidar``.
     reach
         Maximum range [m].
@@ -141,9 +174,7 @@ class Sonar(_Scan, file=SonarFile):
     """
 
     config: SonarFile
-    readings: ClassVar[tuple[Reading, ...]] = (
-        Reading('sonar/scan', SCAN, (Quantity('ranges', 'm', ('distance',)),)),
-    )
+    readings = _scan_and_cloud('sonar/')
 
     def __init__(self, carrier: Carrier, config: SonarFile) -> None:
         self.reach = audible_range(

@@ -85,8 +85,8 @@ class Sensor(ABC):
     channels: ClassVar[tuple[tuple[str, int], ...]] = ()
     #: Quantum of each channel where it is to be dithered and has no resolution; (): no dither.
     dither: ClassVar[tuple[float, ...]] = ()
-    #: Its topics.
-    readings: ClassVar[tuple[Reading, ...]] = ()
+    #: Its topics, of the class or of one that has fewer.
+    readings: tuple[Reading, ...] = ()
     #: Its numbers need ``Simulation.observe(forces=True)``.
     needs_forces: ClassVar[bool] = False
     #: Readings beyond the range are infinite instead of the range's end.
@@ -214,6 +214,23 @@ class Sensor(ABC):
 
         """
         return reading.constants
+
+    def prepare(self, reading: Reading) -> bool:
+        """
+        Work out what only one topic shows of a new reading.
+
+        Parameters
+        ----------
+        reading
+            The topic, which somebody wants.
+
+        Returns
+        -------
+        bool
+            Whether there is anything to show.
+
+        """
+        return True
 
     @abstractmethod
     def _measure(self, values: Array) -> bool:

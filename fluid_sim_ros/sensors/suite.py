@@ -8,6 +8,7 @@ from pkgutil import iter_modules
 from fluid_sim_ros.schema.sensors import KINDS, SensorsFile
 from fluid_sim_ros.sensors.airspeed import Airspeed
 from fluid_sim_ros.sensors.beams import Dvl, Rangefinder
+from fluid_sim_ros.sensors.camera import Camera
 from fluid_sim_ros.sensors.gnss import Gnss
 from fluid_sim_ros.sensors.imu import Imu
 from fluid_sim_ros.sensors.magnetometer import Magnetometer
@@ -44,7 +45,8 @@ class SensorSuite:
 
     Attributes
     ----------
-    imu, magnetometer, barometer, pressure, gnss, airspeed, rangefinder, dvl, lidar, sonar
+    imu, magnetometer, barometer, pressure, gnss, airspeed, rangefinder, dvl, lidar, sonar,
+    camera
         Each a sensor, or None where the vehicle has none: one for each key of ``sensors:``.
     sensors
         Those that there are.
@@ -68,6 +70,7 @@ class SensorSuite:
     dvl: Dvl | None
     lidar: Lidar | None
     sonar: Sonar | None
+    camera: Camera | None
 
     def __init__(
         self,

@@ -17,6 +17,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.messages.definitions import definition
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
 from fluid_sim_ros.recording.reader import open_log
+from test.support.camera_scene import camera_scene
 from test.support.foxglove_client import foxglove_client
 from test.support.paths import ROOT
 
@@ -101,6 +102,27 @@ def _send(live, simulation, client, number):
     simulation.step(live.sink.period - simulation.tick % live.sink.period)
     live.sink.write(simulation)
     return any(message[0] == number for message in client.messages)
+
+
+def test_a_viewer_sees_pictures_which_are_drawn_only_then(tmp_path):
+    simulation = Simulation(camera_scene(tmp_path))
+    live = LiveRun(simulation, 0)
+    camera = live.sink._states.suites['x500'].camera
+    try:
+        with foxglove_client(live.sink.port) as client:
+            number = client.subscribe('/x500/camera/camera_info')
+            client.wait_for(lambda c: _send(live, simulation, c, number))
+            assert camera._drawn == set()
+            number = client.subscribe('/x500/camera/image_raw')
+            client.wait_for(lambda c: _send(live, simulation, c, number))
+            assert client.channels['/x500/camera/image_raw']['schemaName'] == (
+                'sensor_msgs/msg/Image'
+            )
+    finally:
+        live.sink.close()
+    picture = next(data for n, _, data in client.messages if n == number)
+    assert len(picture) > 64 * 48 * 3 and b'rgb8' in picture
+    assert list(camera._offscreen) == ['color']
 
 
 def test_a_port_in_use_is_one_line():

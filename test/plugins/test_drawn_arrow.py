@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from fluid_sim_ros.plugins.drawn_arrow import add_arrow
-from fluid_sim_ros.recording.pictures.renderer import new_renderer
+from fluid_sim_ros.plugins.renderer import new_renderer
 
 
 def test_an_arrow_reaches_as_far_as_it_says():

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from fluid_sim_ros.plugins.renderer import new_renderer
 from fluid_sim_ros.recording.pictures.caption import captioned, pixels_per_metre, round_length
-from fluid_sim_ros.recording.pictures.renderer import new_renderer
 
 
 @pytest.mark.parametrize(

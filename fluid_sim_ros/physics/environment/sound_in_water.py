@@ -10,10 +10,10 @@ def absorption(frequency: float, temperature: float, salinity: float, depth: flo
     """
     Return the absorption of sound in water.
 
-    Ainslie and McColm (1998), J. Acoust. Soc. Am. 103(3), 1671, at pH 8 (the constants are from
-    memory, and checked against a published value in the tests): boric acid, magnesium sulphate
-    and viscosity; within 10 % of Francois and Garrison (1982) from 100 Hz to 1 MHz, -6 to 35 degC,
-    5 to 50 psu, 0 to 7 km. Without salt only viscosity is left.
+    Ainslie and McColm (1998), J. Acoust. Soc. Am. 103(3), 1671, at pH 8: boric acid, magnesium
+    sulphate and viscosity; within 10 % of Francois and Garrison (1982), J. Acoust. Soc. Am. 72(3),
+    896 and 72(6), 1879, from 100 Hz to 1 MHz, where one of these varies from 10 degC, 35 psu and
+    the surface: -6 to 35 degC, 5 to 50 psu, 0 to 7 km. Without salt only viscosity is left.
 
     Parameters
     ----------

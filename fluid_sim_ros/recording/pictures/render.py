@@ -14,12 +14,12 @@ from fluid_sim_ros.output.term_colors import rgb, term_color
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.drawn_arrow import add_arrow, extent
 from fluid_sim_ros.plugins.drawn_waves import add_waves
+from fluid_sim_ros.plugins.renderer import new_renderer
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.pictures.caption import captioned, pixels_per_metre
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.pictures.poses import LogPoses, latest
-from fluid_sim_ros.recording.pictures.renderer import new_renderer
 from fluid_sim_ros.recording.pictures.tracks import Track
 from fluid_sim_ros.scene.vehicle import weight_in_air
 from fluid_sim_ros.schema.limits import check_limit

@@ -21,6 +21,7 @@ from fluid_sim_ros.recording.log import LogMessage
 from fluid_sim_ros.recording.run_file import read_json
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
+from fluid_sim_ros.sensors.reading import IMAGE
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.simulation.entities import Entities
 from fluid_sim_ros.step_clock import NEVER, exact
@@ -204,8 +205,13 @@ def _numbers(values: Any, count: int) -> list[float] | None:
 
 
 def _can_differ(topic: StateTopic) -> bool:
-    """Return whether a topic tells of the flight; a robot description names files of its host."""
-    return not topic.name.endswith(f'/{ROBOT_DESCRIPTION}')
+    """
+    Return whether a topic tells of the flight.
+
+    A robot description names files of its host, and pictures depend on the graphics driver:
+    what was recorded of them stays.
+    """
+    return topic.type != IMAGE and not topic.name.endswith(f'/{ROBOT_DESCRIPTION}')
 
 
 def has_old_transforms(description: RunDescription) -> bool:

@@ -16,6 +16,7 @@ from fluid_sim_ros.recording.replay.compare import Difference, compare
 from fluid_sim_ros.recording.replay.repetition import Repetition, has_old_transforms
 from fluid_sim_ros.schema.limits import beyond, limit
 from fluid_sim_ros.schema.settings import RunSettings
+from fluid_sim_ros.sensors.reading import IMAGE
 
 #: Steps that a message allows for: a log has at least one for each second or so of flight.
 _STEPS_PER_MESSAGE = 1000
@@ -206,6 +207,9 @@ def _notes(description: RunDescription, log: Log) -> list[str]:
     notes = [f'damaged log: {fault}' for fault in log.faults]
     if has_old_transforms(description):
         notes.append(_OLD_TRANSFORMS)
+    pictures = sorted(topic.name for topic in log.topics.values() if topic.type == IMAGE)
+    if pictures:
+        notes.append(f'pictures are not drawn again, the recorded ones stay: {listed(pictures)}')
     if versions['mujoco'] != mujoco.__version__:
         notes.append(f'recorded with MuJoCo {versions["mujoco"]}, this is {mujoco.__version__}')
     machine = f'{platform.system()} {platform.machine()}'
