@@ -9,6 +9,7 @@ from fluid_sim_ros.errors import ConfigError, FluidSimError, listed
 from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.media import OPTION
+from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation
 
@@ -41,12 +42,18 @@ def examine_scene(scene: str | Path) -> list[Row]:
     stated = simulation.scene
     return [
         Row('scene', 'ok', f'{stated.name}, {_source(stated)}'),
+        Row('model', 'ok', str(stated.model_path)),
         Row('vehicles', 'ok', listed(simulation.vehicles)),
         Row('flow', 'ok', f'{source}: {_SOURCES[source]}'),
         Row('stages', 'ok', simulation.stages().words()),
         *(
             Row(f'{name}: terms', 'ok' if terms else 'absent', listed(terms))
             for name, terms in simulation.terms.items()
+        ),
+        *(
+            Row(f'{name}: thrusters', 'ok', _thrusters(vehicle))
+            for name, vehicle in simulation.vehicles.items()
+            if vehicle.thrusters
         ),
         *(Row('warning', 'absent', line) for line in simulation.warnings.lines),
         *(
@@ -91,6 +98,15 @@ def _source(scene: Scene) -> str:
         return world
     kinds = dict.fromkeys(member.model_path.stem for member in scene.fleet.members.values())
     return f'{listed(kinds)} in the world of {world}'
+
+
+def _thrusters(vehicle: Vehicle) -> str:
+    """Return the thrusters in the order of a command, with their ranges [N]."""
+    ranges = [f'{low:.4g} to {high:.4g} N' for low, high in vehicle.thrust_range.tolist()]
+    if len(ranges) > 1 and len(set(ranges)) == 1:
+        return f'in this order: {", ".join(vehicle.thrusters)} ({ranges[0]} each)'
+    named = zip(vehicle.thrusters, ranges, strict=True)
+    return 'in this order: ' + ', '.join(f'{name} ({span})' for name, span in named)
 
 
 def _models(models: Sequence[Any]) -> str:
