@@ -6,7 +6,6 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
@@ -15,7 +14,7 @@ from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
-from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, without_air
+from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, floats, without_air
 from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.residuals import Residuals, residuals, summary
@@ -29,8 +28,6 @@ BASELINES = {
     'hold_velocity': 'velocity and rates stay as they are',
     'rigid_body': 'mass, inertia and static thrust, without aero- or hydrodynamics',
 }
-#: Winds that differ by less are flown in one batch [m/s].
-_SAME_FLOW = 0.05
 
 
 @dataclass(frozen=True)
@@ -118,7 +115,7 @@ def compare(
     bare = Flyer(rigid, part.threads)
     found['rigid_body'] = errors(fly_windows(bare, windows, horizons), measured)
     along = residuals(flyer, windows)
-    off = summary(along)
+    off = summary(along, floats(driven))
     numbers: dict[str, Any] = {
         'log': str(flight.raw.path), 'kind': flight.raw.kind, 'model': model,
         'vehicle': driven.vehicle.name, 'driven_by': driven.kind,
@@ -184,32 +181,7 @@ def fly_windows(flyer: Flyer, windows: Windows, horizons: Sequence[float]) -> Ar
     start = windows.measured(0.0)
     controls = windows.controls(flyer.driven, step)[:, : every[-1]]
     spun = first_speeds(flyer, windows, start)
-    out = np.empty((len(start), len(every), start.shape[1]))
-    for rows, flow, through in _flows(flyer, windows):
-        if len(flow) and not through:
-            flyer.model.opt.wind[:] = flow[0]
-        full = flyer.states(
-            start[rows], flow if through else None, None if spun is None else spun[rows]
-        )
-        out[rows] = flyer.fly(full, controls[rows], every)
-    return out
-
-
-def _flows(flyer: Flyer, windows: Windows) -> list[tuple[NDArray[np.int64], Array, bool]]:
-    """Return batches of windows: their rows, their flow (w, 3), and whether it is in the state."""
-    rows = np.arange(len(windows.begins))
-    wind = windows.flight.signals.get('wind')
-    if wind is None:
-        return [(rows, np.zeros((0, 3)), False)]
-    flow = wind.between(windows.begins + 0.5 * windows.length)
-    if flyer.has_medium:
-        return [(rows, flow, True)]
-    batches = np.round(flow / _SAME_FLOW).astype(int)
-    _, which = np.unique(batches, axis=0, return_inverse=True)
-    which = which.ravel()
-    return [
-        (rows[which == i], flow[which == i], False) for i in range(int(which.max(initial=0)) + 1)
-    ]
+    return flyer.fly(flyer.states(start, windows.clock, spun), controls, every)
 
 
 def by_horizon(horizons: Sequence[float], found: dict[str, Array]) -> dict[str, Any]:

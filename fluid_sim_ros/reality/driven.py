@@ -15,7 +15,13 @@ from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.flights.flight import Flight, FlightError
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.config import MEDIUM, THRUSTER, plugin_of_actuator
+from fluid_sim_ros.plugins.config import (
+    BODY,
+    MEDIUM,
+    THRUSTER,
+    plugin_of_actuator,
+    plugin_of_body,
+)
 from fluid_sim_ros.reality.actuators import (
     columns_of_thrusters,
     controls_of,
@@ -24,6 +30,7 @@ from fluid_sim_ros.reality.actuators import (
     take_commands,
 )
 from fluid_sim_ros.reality.commanded import commanded_coefficients
+from fluid_sim_ros.reality.flow import recorded_flow
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.scene.media import streams_of
 from fluid_sim_ros.scene.vehicle import Vehicle
@@ -33,6 +40,11 @@ Edit = Callable[[mujoco.MjSpec], None]
 
 #: Slew of wind and current in place of the medium's own: no limit, no acceleration of the fluid.
 _AT_ONCE = '0'
+#: What is said of a scene with waves.
+CALM = (
+    'waves: a log does not say which they were; the surface is calm here, and the water moves as '
+    'recorded, if it was'
+)
 #: Keys of fluid_sim.thruster that a rigid body has not.
 _AERODYNAMIC = (
     'rotor_drag', 'rolling_moment', 'ground_effect', 'ground', 'fluid',
@@ -122,6 +134,8 @@ def drive(
     signal = flight.actuators
     if signal is None:
         raise FlightError(f'{flight.raw.path}: no actuator signal; nothing drives the model')
+    waves = scene.waves is not None
+    scene = replace(scene, waves=None)
     plain = scene.compile()
     vehicle = _vehicle(plain.vehicles, flight.vehicle, scene.name)
     columns = columns_of_thrusters(signal, vehicle, flight, outputs)
@@ -130,21 +144,26 @@ def drive(
     if kind == 'thrust' and len(coefficients):
         kind = 'thrust_speed'
     limits = speed_limits(plain.model, vehicle, signal, kind, columns, flight)
+    notes += (CALM,) * waves
+    settings = settings or RunSettings()
+    flow, thinned = recorded_flow(flight, streams_of(plain.model, scene.medium)[0])
 
     def change(spec: mujoco.MjSpec) -> None:
         strip(spec)
+        if flow is not None and settings.fluid != 'none':
+            flow(spec)
         if edit is not None:
             edit(spec)
         take_commands(spec, vehicle, kind, limits)
 
-    compiled = scene.compile(settings or RunSettings(), change)
+    compiled = scene.compile(settings, change)
     model = compiled.model
     vehicle = compiled.vehicles[vehicle.name]
     controls = controls_of(model, vehicle, kind, outputs, limits, coefficients)
     kind = 'thrust' if kind == 'thrust_speed' else kind
     lag = _longest_lag(model, vehicle)
     speeds = _speed_columns(model, vehicle, flight) if lag else ()
-    return Driven(model, vehicle, kind, columns, controls, lag, speeds, notes)
+    return Driven(model, vehicle, kind, columns, controls, lag, speeds, (*notes, *thinned))
 
 
 def strip(spec: mujoco.MjSpec) -> None:
@@ -167,7 +186,7 @@ def strip(spec: mujoco.MjSpec) -> None:
     for key in spec.keys:
         key.act = np.zeros(0)
     for plugin in spec.plugins:
-        if plugin.plugin_name == MEDIUM:  # a measured wind is there at once
+        if plugin.plugin_name == MEDIUM:  # a wind that is fitted is there at once
             plugin.config = {**plugin.config, 'wind_slew': _AT_ONCE, 'current_slew': _AT_ONCE}
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
 
@@ -190,20 +209,18 @@ def without_air(spec: mujoco.MjSpec) -> None:
             plugin.config = kept
 
 
-def medium_stream(model: mujoco.MjModel, scene: Scene) -> str:
+def floats(driven: Driven) -> bool:
     """
-    Return what moves a vehicle in a scene: ``wind`` or ``current``.
+    Return whether the water carries the weight of a vehicle.
 
     Parameters
     ----------
-    model
-        The compiled model.
-    scene
-        It is of.
+    driven
+        The model; one that displaces water floats.
 
     """
-    streams = streams_of(model, scene.medium)
-    return 'current' if 'current' in streams else 'wind'
+    body = plugin_of_body(driven.model, driven.vehicle.body_id, BODY)
+    return body is not None and bool(body.text('volume'))
 
 
 def _vehicle(vehicles: dict[str, Vehicle], wanted: str, scene: str) -> Vehicle:

@@ -2,12 +2,16 @@
 
 from typing import Any
 
+from fluid_sim_ros.errors import listed
+from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 from fluid_sim_ros.reality.residuals import AVERAGE, AXES
 
 #: A word is said of an axis from this share of the force on, and of its scatter.
 _WORTH, _CLEAR = 0.02, 0.25
 #: ... and where it is more than the rounding of a log [m/s^2].
 _LEAST = 0.02
+#: A model whose force is so many times off is of another vehicle.
+_ANOTHER = 1.6
 
 
 def words(numbers: dict[str, Any]) -> list[str]:
@@ -25,12 +29,14 @@ def words(numbers: dict[str, Any]) -> list[str]:
     if force is None:
         lines.append('no accelerometer in the log: nothing can be said of the forces by axis')
     else:
-        z = force['axes']['z']
-        share = z['scale'] - 1
-        if abs(share) > _WORTH:
-            weak = 'too weak' if share > 0 else 'too strong'
-            lines.append(f'the model is {100 * abs(share):.0f} % {weak} along z')
+        lines += _along_z(force['axes']['z'], numbers.get('floats', False))
         lines += [_drag(axis, force['axes'][axis]) for axis in AXES]
+        still = [axis for axis in AXES if force['axes'][axis]['per_speed'] is None]
+        if still:
+            lines.append(
+                f'nothing can be said of drag along {listed(still)}: the speed there hardly '
+                f'changes (rms {max(force["axes"][a]["speed_rms"] for a in still):.2g} m/s)'
+            )
         lines.append(
             f'specific force along z: {100 * force["z_rms_of_g"]:.1f} % of g off (rms over '
             f'{1e3 * AVERAGE:.0f} ms)'
@@ -45,9 +51,36 @@ def words(numbers: dict[str, Any]) -> list[str]:
     return [line for line in lines if line]
 
 
-def _drag(axis: str, numbers: dict[str, float]) -> str:
+def _along_z(numbers: dict[str, Any], floats: bool) -> list[str]:
+    """Return whether thrust fits, and of what floats, whether its weight in water does."""
+    lines = []
+    scale, mean = numbers['scale'], numbers['mean']
+    if scale is not None and not 1 / _ANOTHER < scale < _ANOTHER:
+        lines.append(
+            f'along z the model gives {1 / scale:.2g} times the force that was measured: another '
+            'vehicle, or commands that mean something else (--mapping)?'
+        )
+    elif scale is not None and abs(scale - 1) > _WORTH:
+        weak = 'too weak' if scale > 1 else 'too strong'
+        lines.append(f'the model is {100 * abs(scale - 1):.0f} % {weak} along z')
+    elif scale is None and floats:
+        lines.append('nothing can be said of thrust along z: hardly any force changes there')
+    elif scale is None:
+        lines.append(
+            'the forces of the model along z are not those that were measured: another vehicle, '
+            'or its commands mean something else (--mapping)?'
+        )
+    if floats and abs(mean) > _WORTH * GRAVITY:
+        lines.append(
+            f'a constant {mean:+.2g} m/s^2 is missing along z: mass or volume are not those of '
+            'the model'
+        )
+    return lines
+
+
+def _drag(axis: str, numbers: dict[str, Any]) -> str:
     slope, explains = numbers['per_speed'], numbers['per_speed_explains']
-    if explains < _CLEAR or numbers['rms'] < _LEAST:
+    if slope is None or explains < _CLEAR or numbers['rms'] < _LEAST:
         return ''
     if slope < 0:
         return (

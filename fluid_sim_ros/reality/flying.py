@@ -10,7 +10,6 @@ from mujoco import rollout
 from numpy.typing import NDArray
 
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.native import native
 from fluid_sim_ros.reality.driven import Driven
 from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, WIDTH
 
@@ -44,15 +43,10 @@ class Flyer:
         ids = vehicle.thruster_ids
         has = model.actuator_actnum[ids] > 0
         self._act = 1 + model.nq + model.nv + model.actuator_actadr[ids][has]
-        wind, current = np.zeros(3), np.zeros(3)
-        #: Whether wind and current are in the state, not an option of the model.
-        self.has_medium = bool(native().get_medium(
-            model._address, self._data[0]._address, wind.ctypes.data, current.ctypes.data
-        ))  # fmt: skip
         self._blank = np.empty(self._size)
         mujoco.mj_getState(model, self._data[0], self._blank, _STATE)
 
-    def states(self, start: Array, flow: Array | None, spun: Array | None) -> Array:
+    def states(self, start: Array, times: Array, spun: Array | None) -> Array:
         """
         Return full states of the engine, shape (w, n).
 
@@ -60,16 +54,14 @@ class Flyer:
         ----------
         start
             States of the vehicle, shape (w, 13).
-        flow
-            Velocity of the wind (or current) in each window [m/s], shape (w, 3), for a model with
-            ``fluid_sim.medium``; None: the model's own.
+        times
+            Of the model's clock at the begins [s], shape (w,): ``Windows.clock``.
         spun
             Speeds of the rotors that have a lag [rad/s], shape (w, m); None: at rest.
 
         """
         full = np.tile(self._blank, (len(start), 1))
-        if flow is not None:
-            self._stir(full, flow)
+        full[:, 0] = times
         at = self._qpos
         full[:, at : at + 3], full[:, at + 3 : at + 7] = start[:, POSITION], start[:, ATTITUDE]
         at = self._qvel
@@ -77,16 +69,6 @@ class Flyer:
         if spun is not None:
             full[:, self._act] = spun
         return full
-
-    def _stir(self, full: Array, flow: Array) -> None:
-        data, model = self._data[0], self.model
-        velocity = np.zeros(3)
-        address = velocity.ctypes.data
-        for row, each in zip(full, flow, strict=True):
-            mujoco.mj_resetData(model, data)
-            velocity[:] = each
-            native().set_medium(model._address, data._address, address, address)
-            mujoco.mj_getState(model, data, row, _STATE)
 
     def fly(self, full: Array, controls: Array, every: Sequence[int]) -> Array:
         """

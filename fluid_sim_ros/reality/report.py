@@ -180,13 +180,17 @@ def _rows(numbers: dict[str, Any]) -> list[list[str]]:
     return rows
 
 
+def _told(number: float | None, form: str) -> str:
+    return 'too little to tell' if number is None else f'{number:{form}}'
+
+
 def _axis_rows(residuals: dict[str, Any]) -> list[list[str]]:
     rows = []
     for kind, facts in residuals.items():
-        for axis in AXES:
+        for axis in AXES if isinstance(facts, dict) else ():
             n = facts['axes'][axis]
             rows.append([
                 f'{kind.replace("_", " ")} {axis} [{facts["unit"]}]', f'{n["rms"]:.3g}',
-                f'{n["mean"]:+.3g}', f'{n["scale"]:.3f}', f'{n["per_speed"]:+.3g}',
+                f'{n["mean"]:+.3g}', _told(n['scale'], '.3f'), _told(n['per_speed'], '+.3g'),
             ])  # fmt: skip
     return rows

@@ -21,6 +21,11 @@ from fluid_sim_ros.simulation.engine import Engine
 AVERAGE = 0.05
 #: Distance of the looks [s], and most of them.
 _APART, _MOST = 0.004, 8000
+#: A model's acceleration that is smaller, or less alike what was measured, says nothing of a
+#: scale: [m/s^2] or [rad/s^2], and the square of the cosine between both.
+_FELT, _ALIKE = 0.2, 0.5
+#: Nor does a velocity that changes by less say anything of drag, rms about its mean [m/s].
+_MOVED = 0.1
 AXES = ('x', 'y', 'z')
 
 
@@ -126,10 +131,8 @@ def accelerations(flyer: Flyer, flight: Flight, times: Array) -> Accelerations:
     states = state_at(flight, times)
     taken = signal.between if driven.kind == 'rotor_speed' else signal.held
     controls = driven.controls(taken(times)[:, list(driven.columns)])
-    wind = flight.signals.get('wind')
-    flow = None if wind is None else wind.between(times)
-    spun = first_speeds(flyer, Windows(flight, times, 0.0, {}), states)
-    force, turn = _model(driven, states, controls, spun, flow)
+    looks = Windows(flight, times, 0.0, {})
+    force, turn = _model(driven, states, looks.clock, controls, first_speeds(flyer, looks, states))
     return Accelerations(force, turn, controls)
 
 
@@ -144,7 +147,7 @@ def _times(windows: Windows) -> Array:
 
 
 def _model(
-    driven: Driven, states: Array, controls: Array, spun: Array | None, flow: Array | None
+    driven: Driven, states: Array, clock: Array, controls: Array, spun: Array | None
 ) -> tuple[Array, Array]:
     engine = Engine(driven.model, [driven.vehicle.body_id])
     model, data, vehicle = engine.model, engine.data, driven.vehicle
@@ -153,22 +156,14 @@ def _model(
     acts = model.actuator_actadr[vehicle.thruster_ids][has]
     force, turn = np.empty((len(states), 3)), np.empty((len(states), 3))
     for i, state in enumerate(states):
+        data.time = clock[i]
         data.qpos[at : at + 7], data.qvel[dof : dof + 6] = state[:7], state[7:]
         data.ctrl[vehicle.thruster_ids] = controls[i]
         if spun is not None:
             data.act[acts] = spun[i]
-        if flow is not None:
-            _stir(engine, flow[i])
         row = engine.observe(forces=True, wrenches=False)[0]
         force[i], turn[i] = row[nat.SPECIFIC_FORCE], row[nat.ANGULAR_ACCELERATION]
     return force, turn
-
-
-def _stir(engine: Engine, flow: Array) -> None:
-    velocity = np.ascontiguousarray(flow)
-    address = velocity.ctypes.data
-    if not nat.native().set_medium(*engine.addresses, address, address):
-        engine.model.opt.wind[:] = flow
 
 
 def _averaged(times: Array, values: Array) -> Array:
@@ -185,7 +180,7 @@ def _averaged(times: Array, values: Array) -> Array:
     return mean
 
 
-def summary(found: Residuals) -> dict[str, Any]:
+def summary(found: Residuals, floats: bool = False) -> dict[str, Any]:
     """
     Return the residuals as numbers.
 
@@ -193,16 +188,19 @@ def summary(found: Residuals) -> dict[str, Any]:
     ----------
     found
         Along a flight.
+    floats
+        Whether the vehicle's weight is carried by the water: then it says nothing of thrust.
 
     Returns
     -------
     dict
-        Per kind and axis: ``mean``, ``rms``, ``scale`` (measured over model, through zero),
-        ``per_speed`` (residual per velocity along the axis) and the rms in four parts of speed,
-        tilt and drive.
+        Per kind and axis: ``mean``, ``rms``, ``scale`` (measured over model; None where the model
+        has too little along the axis to tell), ``speed_rms`` (of the velocity about its mean),
+        ``per_speed`` (residual per velocity along the axis; None where it changes too little) and
+        the rms in four parts of speed, tilt and drive.
 
     """
-    result: dict[str, Any] = {}
+    result: dict[str, Any] = {'floats': floats}
     for name, unit, measured, model in (
         ('specific_force', 'm/s^2', found.force, found.force_model),
         ('angular_acceleration', 'rad/s^2', found.turn, found.turn_model),
@@ -210,8 +208,10 @@ def summary(found: Residuals) -> dict[str, Any]:
         if not len(measured):
             continue
         off = measured - model
-        axes = {axis: _axis(off[:, i], measured[:, i], model[:, i], found.speed[:, i])
-                for i, axis in enumerate(AXES)}  # fmt: skip
+        axes = {
+            axis: _axis(measured[:, i], model[:, i], found.speed[:, i], floats)
+            for i, axis in enumerate(AXES)
+        }
         size = np.linalg.norm(off, axis=1)
         result[name] = {
             'unit': unit, 'axes': axes,
@@ -227,19 +227,32 @@ def summary(found: Residuals) -> dict[str, Any]:
     return result
 
 
-def _axis(off: Array, measured: Array, model: Array, speed: Array) -> dict[str, float]:
-    moved = float((speed**2).sum())
-    centred = speed - speed.mean()
-    size = max(float(model @ model), 1e-12)
+def _axis(measured: Array, model: Array, speed: Array, centred: bool) -> dict[str, float | None]:
+    off, moving = measured - model, speed - speed.mean()
+    moved = float(np.sqrt((moving**2).mean()))
+    tells = moved > _MOVED
     return {
         'mean': float(off.mean()),
         'rms': float(np.sqrt((off**2).mean())),
         'measured_rms': float(np.sqrt((measured**2).mean())),
-        'scale': float(measured @ model) / size,
-        'per_speed': float(centred @ off / (centred @ centred)) if moved > 1e-9 else 0.0,
+        'scale': _scale(measured, model, centred),
+        'speed_rms': moved,
+        'per_speed': float(moving @ off / (moving @ moving)) if tells else None,
         'per_speed_explains': float(np.corrcoef(speed, off)[0, 1] ** 2)
-        if np.ptp(speed) > 1e-6 and np.ptp(off) > 1e-12 else 0.0,
+        if tells and np.ptp(off) > 1e-12 else 0.0,
     }  # fmt: skip
+
+
+def _scale(measured: Array, model: Array, centred: bool) -> float | None:
+    """Return measured over model by least squares; None where there is too little to tell."""
+    if centred:
+        measured, model = measured - measured.mean(), model - model.mean()
+    both, size, seen = (float(a @ b) for a, b in (
+        (measured, model), (model, model), (measured, measured),
+    ))  # fmt: skip
+    if size < _FELT**2 * len(model) or both**2 < _ALIKE * size * seen:
+        return None
+    return both / size
 
 
 def _parts(by: Array, size: Array) -> list[dict[str, float]]:

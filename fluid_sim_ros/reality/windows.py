@@ -9,6 +9,7 @@ from fluid_sim_ros.flights.flight import STATE, Flight, FlightError
 from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import Driven
+from fluid_sim_ros.reality.flow import time_in_model
 
 #: Columns of a state: position [m], quaternion wxyz, velocity [m/s] (world), rates (body) [rad/s].
 POSITION, ATTITUDE, VELOCITY, RATES = slice(0, 3), slice(3, 7), slice(7, 10), slice(10, 13)
@@ -40,6 +41,11 @@ class Windows:
     begins: Array
     length: float
     left_out: dict[str, int]
+
+    @property
+    def clock(self) -> Array:
+        """What the clock of a model shows at each begin [s], shape (w,)."""
+        return time_in_model(self.flight, self.begins)
 
     def measured(self, after: float | Array) -> Array:
         """

@@ -156,7 +156,7 @@ def _cost(flyer: Flyer, windows: Windows, horizon: float) -> float:
     """Return the processor time of one simulated second [us], in one thread."""
     start = windows.measured(0.0)
     controls = windows.controls(flyer.driven, flyer.timestep)[:, : round(horizon / flyer.timestep)]
-    full = flyer.states(start, None, None)
+    full = flyer.states(start, windows.clock, None)
     spent = []
     for _ in range(_TIMED):
         begin = time.process_time()

@@ -211,15 +211,7 @@ class Shooter:
         shots, step = self.shots, flyer.timestep
         every = [max(1, round(seconds / step)) for seconds in shots.after[1:]]
         controls = shots.windows.controls(flyer.driven, step)[:, : every[-1]]
-        wind = shots.windows.flight.signals.get('wind')
-        flow = None
-        if wind is not None:
-            flow = wind.between(shots.windows.begins + 0.5 * shots.windows.length)
-            if not flyer.has_medium:
-                flyer.model.opt.wind[:] = flow.mean(axis=0)
-                flow = None
-        found = np.concatenate(
-            [start[:, None], flyer.fly(flyer.states(start, flow, spun), controls, every)], axis=1
-        )
+        full = flyer.states(start, shots.windows.clock, spun)
+        found = np.concatenate([start[:, None], flyer.fly(full, controls, every)], axis=1)
         off: Array = np.nan_to_num(error_vectors(found, shots.wanted) * self.weights, nan=1e6)
         return off.reshape(len(start), -1) * self.trust
