@@ -60,9 +60,11 @@ class Native:
     ``step(model, data, n, report) -> int`` and ``observe(model, data, scratch, bases, count,
     forces, rows)`` take addresses (``MjModel._address``, ``ndarray.ctypes.data``), ``forces`` is
     0, 1 (accelerations) or 2 (wrenches, too); both release the interpreter lock while they run,
-    as all do. ``lean(model, data, report) -> int`` makes what ``lean_step(lean, n) -> int`` steps
-    as ``step`` does, to the bit, without the work that cannot change the state; ``lean_free``
+    as all do. ``lean(model, data, report) -> int`` makes what ``lean_step(lean, n, tick) -> int``
+    steps as ``step`` does, to the bit, without work that cannot change the state; ``lean_free``
     frees it, and ``lean_about(lean, out)`` tells what is left out (``simulation.stages``).
+    ``lean_add_gait(lean, beat, wave, count, controls, joints)``, ``lean_forget_gaits(lean)`` and
+    ``lean_hold_wrenches(lean, count, addresses, numbers)`` set what is written before each step.
     ``look(model, data, scratch, bases, count, start, largest, rows)`` raises the
     largest speed, tilt and distance from the start of each base; ``runs`` takes many runs in one
     call (``simulation.batch.BatchRuns``).
@@ -108,9 +110,22 @@ class Native:
         self.lean_free: Callable[[int], None] = library.fsr_lean_free
         library.fsr_lean_free.argtypes = [pointer]
         library.fsr_lean_free.restype = None
-        self.lean_step: Callable[[int, int], int] = library.fsr_lean_step
-        library.fsr_lean_step.argtypes = [pointer, integer]
+        self.lean_step: Callable[[int, int, int], int] = library.fsr_lean_step
+        library.fsr_lean_step.argtypes = [pointer, integer, ctypes.c_longlong]
         library.fsr_lean_step.restype = integer
+        self.lean_add_gait: Callable[[int, int, int, int, int, int], None] = (
+            library.fsr_lean_add_gait
+        )
+        library.fsr_lean_add_gait.argtypes = [pointer] * 3 + [integer] + [pointer] * 2
+        library.fsr_lean_add_gait.restype = None
+        self.lean_forget_gaits: Callable[[int], None] = library.fsr_lean_forget_gaits
+        library.fsr_lean_forget_gaits.argtypes = [pointer]
+        library.fsr_lean_forget_gaits.restype = None
+        self.lean_hold_wrenches: Callable[[int, int, int, int], None] = (
+            library.fsr_lean_hold_wrenches
+        )
+        library.fsr_lean_hold_wrenches.argtypes = [pointer, integer, pointer, pointer]
+        library.fsr_lean_hold_wrenches.restype = None
         self.lean_about: Callable[[int, int], None] = library.fsr_lean_about
         library.fsr_lean_about.argtypes = [pointer] * 2
         library.fsr_lean_about.restype = None

@@ -27,8 +27,14 @@ class GaitCycle:
     ----------
     beat
         At which ticks it is evaluated.
+    period
+        Between two of them [s].
+    wave
+        What is evaluated.
+    controls
+        Addresses of the joints' commands in ``mjData.ctrl``, shape (n,).
     rounded
-        A line where these are no whole number of ticks apart, otherwise empty.
+        A line where beats are no whole number of ticks apart, otherwise empty.
 
     Raises
     ------
@@ -51,34 +57,47 @@ class GaitCycle:
             else f'{where}: rate {gait.rate:g} Hz does not divide the step rate of '
             f'{1 / timestep:g} Hz; met on average, each value at the nearest step'
         )
-        self._ids = vehicle.joint_ids
-        self._wave = JointWave(
+        self.controls = vehicle.joint_ids
+        self.wave = JointWave(
             gait.frequency,
             tuple(gait.amplitudes),
             tuple(gait.phases),
             tuple(gait.offsets),
             gait.ramp,
         )
-        self._tick = float(1 / exact(gait.rate))
+        self.period = float(1 / exact(gait.rate))
 
-    def write(self, step: int, control: Array) -> None:
+    def next_due(self, tick: int) -> int:
         """
-        Write the joint commands of a tick that is due.
+        Return the first tick of an evaluation, from a tick on.
 
         Parameters
         ----------
-        step
-            The tick.
+        tick
+            0 or more.
+
+        """
+        return tick - 1 + self.beat.until_next(tick - 1)
+
+    def write(self, tick: int, control: Array) -> None:
+        """
+        Write the joint commands if the wave is evaluated at a tick.
+
+        Parameters
+        ----------
+        tick
+            0 or more.
         control
             ``mjData.ctrl``; changed.
 
         """
-        control[self._ids] = self._wave.angles(self.beat.index(step) * self._tick)
+        if self.beat.due(tick):
+            control[self.controls] = self.wave.angles(self.beat.index(tick) * self.period)
 
 
 class Gaits:
     """
-    The waves of all vehicles; ``next_step`` is what the step loop looks at.
+    The waves of all vehicles.
 
     A command on a vehicle's joints ends its wave until the next reset.
 
@@ -95,10 +114,10 @@ class Gaits:
 
     Attributes
     ----------
+    names
+        Of the vehicles that have a wave.
     running
         Names of the vehicles whose waves run.
-    next_step
-        Tick of the next evaluation.
     rounded
         A line for each wave whose rate does not divide the step rate.
 
@@ -123,59 +142,22 @@ class Gaits:
                     f'{did_you_mean(name, vehicles)} it has: {listed(vehicles)}'
                 )
         self._all = {name: GaitCycle(g, vehicles[name], timestep) for name, g in gaits.items()}
+        self.names = tuple(self._all)
         self.rounded = tuple(cycle.rounded for cycle in self._all.values() if cycle.rounded)
-        self.running: tuple[str, ...] = ()
-        self.next_step = NEVER
-        self.restart(0, tuple(self._all))
+        self.running = self.names
 
-    def restart(self, step: int, running: tuple[str, ...] | None = None) -> None:
+    def cycles(self) -> list[GaitCycle]:
+        """Return the waves that run."""
+        return [self._all[name] for name in self.running]
+
+    def next_due(self, tick: int) -> int:
         """
-        Go on from a tick.
+        Return the first tick, from a tick on, at which any running wave is evaluated (``NEVER``).
 
         Parameters
         ----------
-        step
-            The tick.
-        running
-            Names of the vehicles whose waves run; None: all of the scene.
+        tick
+            0 or more.
 
         """
-        self.running = tuple(self._all) if running is None else running
-        self._schedule_after(step - 1)
-
-    def end(self, vehicle: str) -> None:
-        """
-        End a vehicle's wave, if it has one.
-
-        Parameters
-        ----------
-        vehicle
-            Its name.
-
-        """
-        if vehicle in self.running:
-            self.running = tuple(name for name in self.running if name != vehicle)
-            self._schedule_after(self.next_step - 1)
-
-    def write_due(self, step: int, control: Array) -> None:
-        """
-        Write the commands that take effect at a tick.
-
-        Parameters
-        ----------
-        step
-            The tick.
-        control
-            ``mjData.ctrl``; changed.
-
-        """
-        if step < self.next_step:
-            return
-        for name in self.running:
-            if self._all[name].beat.due(step):
-                self._all[name].write(step, control)
-        self._schedule_after(step)
-
-    def _schedule_after(self, step: int) -> None:
-        beats = [self._all[name].beat for name in self.running]
-        self.next_step = min((step + b.until_next(step) for b in beats), default=NEVER)
+        return min((cycle.next_due(tick) for cycle in self.cycles()), default=NEVER)

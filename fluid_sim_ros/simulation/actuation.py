@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -123,7 +122,12 @@ class Controls:
 
 @dataclass(frozen=True)
 class CommandedWrench:
-    """A wrench at a base_link origin: force [N] and torque [N m] in the axes of ``frame``."""
+    """
+    A wrench at a base_link origin: force [N] and torque [N m] in the axes of ``frame``.
+
+    The compiled step writes it to ``mjData.qfrc_applied``, at the attitude before each step: the
+    generalized force of a free joint is the force in world axes, and the torque in body axes.
+    """
 
     force_f: Array
     torque_f: Array
@@ -176,29 +180,3 @@ class CommandedWrench:
     def is_zero(self) -> bool:
         """Return whether it does nothing."""
         return not (self.force_f.any() or self.torque_f.any())
-
-    def write(self, vehicle: Vehicle, data: mujoco.MjData) -> None:
-        """
-        Write it to qfrc_applied at the present attitude.
-
-        The generalized force of a free joint is the force at the body origin in world axes, and
-        the torque in body axes.
-
-        Parameters
-        ----------
-        vehicle
-            Whose.
-        data
-            MuJoCo's; its ``qfrc_applied`` is changed.
-
-        """
-        quat_wb = data.qpos[vehicle.qpos_address + 3 : vehicle.qpos_address + 7]
-        target = data.qfrc_applied[vehicle.dof_address : vehicle.dof_address + 6]
-        if self.frame == 'base_link':
-            mujoco.mju_rotVecQuat(target[:3], self.force_f, quat_wb)
-            target[3:] = self.torque_f
-        else:
-            quat_bw = np.empty(4)
-            mujoco.mju_negQuat(quat_bw, quat_wb)
-            target[:3] = self.force_f
-            mujoco.mju_rotVecQuat(target[3:], self.torque_f, quat_bw)

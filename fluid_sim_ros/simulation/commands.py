@@ -9,6 +9,7 @@ from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.simulation.actuation import CommandedWrench, Controls, finite
 from fluid_sim_ros.simulation.engine import Engine
+from fluid_sim_ros.simulation.step_commands import StepCommands
 from fluid_sim_ros.simulation.wind_and_current import WindAndCurrent
 
 
@@ -16,8 +17,7 @@ class Commands:
     """
     The commands of a simulation: checked, written where the next step reads them, held.
 
-    A commanded wrench turns with its vehicle, so it is written anew at each step, by
-    ``write_wrenches``.
+    A commanded wrench turns with its vehicle, so it is written anew at each step.
 
     Parameters
     ----------
@@ -32,8 +32,8 @@ class Commands:
     ----------
     streams
         Wind and current.
-    wrenches
-        Those that act, by vehicle.
+    in_steps
+        What is written at each step: wrenches and gaits.
 
     """
 
@@ -44,11 +44,9 @@ class Commands:
         on_unfelt: Callable[[str], None] | None = None,
     ) -> None:
         self._vehicles = compiled.vehicles
-        self._gaits = compiled.gaits
-        self._data = engine.data
         self.streams = WindAndCurrent(engine, compiled.streams, on_unfelt)
-        self.wrenches: dict[str, CommandedWrench] = {}
-        control = self._data.ctrl
+        self.in_steps = StepCommands(engine, compiled.gaits, compiled.vehicles)
+        control = engine.data.ctrl
         self._thrusts = {
             v.name: Controls(
                 control,
@@ -157,7 +155,7 @@ class Commands:
             held = dict(zip(target.joints, joints.read(), strict=True))
             values = [{**held, **values}[name] for name in target.joints]
         saturated = joints.write(values)
-        self._gaits.end(vehicle)
+        self.in_steps.end_gait(vehicle)
         return saturated
 
     def set_wind(self, velocity: Sequence[float] | Array) -> None:
@@ -233,10 +231,10 @@ class Commands:
         """
         target = self.vehicle(vehicle)
         wrench = CommandedWrench.checked(target, force, torque, frame)
-        if not wrench.is_zero():
-            self.wrenches[vehicle] = wrench
-        elif self.wrenches.pop(vehicle, None):
-            self._data.qfrc_applied[target.dof_address : target.dof_address + 6] = 0
+        if wrench.is_zero():
+            self.in_steps.end_wrench(vehicle)
+        else:
+            self.in_steps.hold_wrenches({**self.in_steps.wrenches, vehicle: wrench})
 
     def apply(self, change: ScheduledEvent) -> None:
         """
@@ -261,8 +259,3 @@ class Commands:
             self.set_thrust(vehicle, values)
         for vehicle, wrench in change.wrench.items():
             self.set_wrench(vehicle, wrench.force, wrench.torque, wrench.frame)
-
-    def write_wrenches(self) -> None:
-        """Apply the commanded wrenches at the present attitudes."""
-        for name, wrench in self.wrenches.items():
-            wrench.write(self._vehicles[name], self._data)

@@ -75,6 +75,8 @@ class Engine:
         What is stepped; to be changed only between steps.
     observed
         The copy that the last ``observe(forces=True)`` evaluated; only to be read.
+    stepped
+        What ``Native.lean`` returned.
 
     """
 
@@ -83,21 +85,21 @@ class Engine:
         self.data = mujoco.MjData(model)
         self.observed = mujoco.MjData(model)
         library = nat.native()
-        self._step = library.lean_step
+        self._take_steps = library.lean_step
         self._observe = library.observe
         self._raise_largest = library.raise_largest
         self._report = np.zeros(2)
         self._bases = np.array(bases, dtype=np.int32)
         self._rows = np.zeros((len(bases), nat.ROW_WIDTH))
         self.addresses = (model._address, self.data._address)
-        self._lean = library.lean(*self.addresses, self._report.ctypes.data)
-        weakref.finalize(self, library.lean_free, self._lean)
+        self.stepped = library.lean(*self.addresses, self._report.ctypes.data)
+        weakref.finalize(self, library.lean_free, self.stepped)
         self._observe_addresses = (
             *self.addresses, self.observed._address, self._bases.ctypes.data, len(bases),
         )  # fmt: skip
         self._rows_address = self._rows.ctypes.data
 
-    def step(self, n: int) -> int:
+    def step(self, n: int, tick: int = 0) -> int:
         """
         Take steps, each checked.
 
@@ -105,6 +107,8 @@ class Engine:
         ----------
         n
             How many at most.
+        tick
+            The present one, of the gaits that were handed over.
 
         Returns
         -------
@@ -112,7 +116,7 @@ class Engine:
             How many were good; see ``divergence`` for what ended them.
 
         """
-        return self._step(self._lean, n)
+        return self._take_steps(self.stepped, n, tick)
 
     def divergence(self) -> DivergedError:
         """Return the error that describes the bad step which ended the last ``step``."""
@@ -121,10 +125,6 @@ class Engine:
     def observe(self, forces: bool, wrenches: bool = True) -> Array:
         """
         Observe the vehicles.
-
-        With ``forces`` accelerations and wrenches are evaluated at this very state, on a copy of
-        it: the trajectory does not change. Without ``wrenches`` only accelerations are, and the
-        columns of wrenches stay as they were. The array is overwritten by the next call.
 
         Parameters
         ----------
@@ -164,7 +164,7 @@ class Engine:
 
     def stages(self) -> Stages:
         """Return which stages of MuJoCo's step the next steps take."""
-        return Stages.of(self._lean, int(self.model.ngeom))
+        return Stages.of(self.stepped, int(self.model.ngeom))
 
     def energy_balance(self) -> EnergyBalance:
         """Return the energy balance at the present state; takes a step on a copy."""

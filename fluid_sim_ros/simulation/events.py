@@ -1,10 +1,9 @@
-"""What takes effect at step boundaries: scheduled changes, gaits, and wrenches that turn along."""
+"""What takes effect at step boundaries: scheduled changes, and gaits."""
 
 from fluid_sim_ros.scene.scene import CompiledScene
 from fluid_sim_ros.scene.schedule import Event
 from fluid_sim_ros.schema.scene import ScheduledEvent
 from fluid_sim_ros.simulation.commands import Commands
-from fluid_sim_ros.simulation.engine import Engine
 
 
 class Events:
@@ -13,8 +12,6 @@ class Events:
 
     Parameters
     ----------
-    engine
-        Model and data.
     compiled
         The scene's schedule and gaits.
     commands
@@ -22,20 +19,29 @@ class Events:
 
     Attributes
     ----------
-    schedule, gaits
-        Of the scene; the schedule also holds what was added in this run.
+    schedule
+        Of the scene, and what was added in this run.
+    next_stop
+        Tick up to which steps may be taken without ``begin_step``.
 
     """
 
-    def __init__(self, engine: Engine, compiled: CompiledScene, commands: Commands) -> None:
-        self.schedule, self.gaits = compiled.schedule, compiled.gaits
+    def __init__(self, compiled: CompiledScene, commands: Commands) -> None:
+        self.schedule = compiled.schedule
         self._commands = commands
-        self._control = engine.data.ctrl
+        self.next_stop = 0
 
-    @property
-    def next_change(self) -> int:
-        """Tick at which a scheduled event or a gait next takes effect."""
-        return min(self.schedule.next_step, self.gaits.next_step)
+    def next_change(self, tick: int) -> int:
+        """
+        Return the tick at which a scheduled event or a gait next takes effect (``NEVER``).
+
+        Parameters
+        ----------
+        tick
+            The present one.
+
+        """
+        return min(self.schedule.next_step, self._commands.in_steps.gaits.next_due(tick))
 
     def begin_step(self, tick: int) -> None:
         """
@@ -49,8 +55,8 @@ class Events:
         """
         for change in self.schedule.take_due(tick):
             self._commands.apply(change)
-        self.gaits.write_due(tick, self._control)
-        self._commands.write_wrenches()
+        self._commands.in_steps.write_here(tick)
+        self.next_stop = min(self.schedule.next_step, self._commands.in_steps.next_here(tick))
 
     def add(self, tick: int, change: ScheduledEvent) -> None:
         """
@@ -73,6 +79,7 @@ class Events:
             if getattr(change, stream) is not None:
                 self._commands.streams.check(stream)
         self.schedule.add(Event(tick, change))
+        self.next_stop = min(self.next_stop, tick)
 
     def restart(self, tick: int, added: tuple[Event, ...], gaits: tuple[str, ...] | None) -> None:
         """
@@ -89,4 +96,5 @@ class Events:
 
         """
         self.schedule.rewind(tick, added)
-        self.gaits.restart(tick, gaits)
+        self._commands.in_steps.run_gaits(gaits)
+        self.next_stop = tick

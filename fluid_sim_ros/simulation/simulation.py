@@ -107,8 +107,8 @@ class Simulation:
         self.warnings = WarningLog((*compiled.warnings, *terms.warnings()))
         unfelt = None if terms.feel_flow else self._refuse_flow
         self._commands = commands = Commands(engine, compiled, unfelt)
-        self._events = Events(engine, compiled, commands)
-        self._streams, self._wrenches = commands.streams, commands.wrenches
+        self._events = Events(compiled, commands)
+        self._streams, self._in_steps = commands.streams, commands.in_steps
         self.streams, self.flow_source = self._streams.available, self._streams.source
         self.vehicle, self.apply = commands.vehicle, commands.apply
         self.set_thrust, self.set_joints = commands.set_thrust, commands.set_joints
@@ -134,7 +134,7 @@ class Simulation:
     @property
     def next_change(self) -> int:
         """Step at which a scheduled event or a gait next takes effect (``NEVER``)."""
-        return self._events.next_change
+        return self._events.next_change(self.tick)
 
     @property
     def tick(self) -> int:
@@ -172,14 +172,11 @@ class Simulation:
         end, clock, events = self._step + n, self._clock, self._events
         while self._step < end:
             stop = end
-            if end > events.next_change or self._wrenches or clock.retimed:
+            if clock.retimed or end > events.next_stop:
                 events.begin_step(self.tick)
-                stop = min(end, events.next_change)
-                if self._wrenches or clock.retimed:
-                    # the axes of a commanded wrench turn with the body: they hold for one step
-                    stop = self._step + 1
+                stop = min(end, clock.step_at(events.next_stop))
             steps = stop - self._step
-            done = self._engine_step(steps)
+            done = self._engine_step(steps, self._step)
             self._step += done
             if done != steps:
                 raise self._engine.divergence()
@@ -201,7 +198,7 @@ class Simulation:
             If it is not above 0, is longer than the scene's, or a gait is running.
 
         """
-        if self._events.gaits.running:
+        if self._in_steps.gaits.running:
             raise ConfigError("the scene's gait keeps the scene's timestep")
         self._clock.retime(self._step, timestep)
         self.model.opt.timestep = self._clock.timestep
@@ -226,7 +223,7 @@ class Simulation:
         self.model.opt.timestep = self.timestep
         self._streams.reset()
         self._step = 0
-        self._wrenches.clear()
+        self._in_steps.hold_wrenches({})
         self._events.restart(0, (), None)
 
     def close(self) -> None:
@@ -269,9 +266,9 @@ class Simulation:
             engine=self._engine.save(),
             streams=self._streams.save(),
             step=self._step,
-            wrenches=dict(self._wrenches),
+            wrenches=dict(self._in_steps.wrenches),
             added_events=self._events.schedule.added(),
-            gaits=self._events.gaits.running,
+            gaits=self._in_steps.gaits.running,
             pace=self._clock.save(),
         )
 
@@ -295,6 +292,5 @@ class Simulation:
         self._step = state.step
         self._clock.load(state.pace)
         self.model.opt.timestep = self._clock.timestep
-        self._wrenches.clear()
-        self._wrenches.update(state.wrenches)
+        self._in_steps.hold_wrenches(state.wrenches)
         self._events.restart(self.tick, state.added_events, state.gaits)

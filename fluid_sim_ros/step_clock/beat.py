@@ -24,13 +24,15 @@ class Beat:
         Of it, every step that is due is a multiple: the interval if that is whole, otherwise 1.
     whole
         Whether the interval is a whole number of steps.
+    ratio
+        Numerator and denominator of the interval.
     longest
         The most steps between two.
 
     """
 
     def __init__(self, interval: Fraction) -> None:
-        self._p, self._q = interval.numerator, interval.denominator
+        self.ratio = self._p, self._q = interval.numerator, interval.denominator
         self.whole = self._q == 1
         self.period = self._p if self.whole else 1
         self.longest = math.ceil(interval)

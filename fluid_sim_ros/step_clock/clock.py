@@ -133,6 +133,22 @@ class StepClock:
         tick = self._tick_ns
         return self._numerator(step) * tick.denominator // (self._denominator * tick.numerator)
 
+    def step_at(self, tick: int) -> int:
+        """
+        Return the first step at or after a tick.
+
+        Parameters
+        ----------
+        tick
+            Not before the one at which the present pace began.
+
+        """
+        if not self.retimed:
+            return tick
+        length = self._tick_ns
+        ahead = tick * self._denominator * length.numerator - self._base * length.denominator
+        return self._first - -ahead // (self._growth * length.denominator)
+
     def tick_at(self, time_ns: int) -> int:
         """
         Return the first tick at or after a time [ns].

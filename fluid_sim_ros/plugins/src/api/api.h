@@ -7,7 +7,10 @@
 
 #include <mujoco/mujoco.h>
 
+#include <cstdint>
+
 #include "lean/lean.h"
+#include "lean/step_commands.h"
 #include "shared/terms.h"
 
 #define FSR_API extern "C" __attribute__((visibility("default")))
@@ -47,8 +50,10 @@ constexpr ColumnInfo kColumns[] = {
     {"terms", kFirstTerm, kRowWidth},
 };
 
-// As fsr_step; `lean` leaves out what cannot change the state, null: nothing.
-int TakeSteps(const mjModel* m, mjData* d, int n, double* report, Lean* lean);
+// As fsr_step; `lean` leaves out what cannot change the state, null: nothing. `commands` are
+// written before each step, the first of which is at `tick`; null: none.
+int TakeSteps(const mjModel* m, mjData* d, int n, double* report, Lean* lean,
+              StepCommands* commands, std::int64_t tick);
 
 }  // namespace fluid_sim
 

@@ -35,7 +35,7 @@ FSR_API void fsr_runs(mjModel* m, mjData* d, mjData* scratch, const int* bases, 
     int at = 0, watched = 0;
     while (at < steps) {
       const int next = std::min({steps, (at / period + 1) * period, watched + watch});
-      const int good = TakeSteps(m, d, next - at, reports + 2 * run, &lean);
+      const int good = TakeSteps(m, d, next - at, reports + 2 * run, &lean, nullptr, 0);
       at += good;
       if (at < next) break;
       if (at % period == 0 || at == steps) {

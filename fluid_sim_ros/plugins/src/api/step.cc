@@ -3,10 +3,13 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "api/api.h"
 #include "api/quiet.h"
 #include "api/untimed.h"
+#include "shared/spatial.h"
 
 namespace fluid_sim {
 namespace {
@@ -41,13 +44,16 @@ int BadDof(const mjModel* m, const mjData* d) {
 
 }  // namespace
 
-int TakeSteps(const mjModel* m, mjData* d, int n, double* report, Lean* lean) {
+int TakeSteps(const mjModel* m, mjData* d, int n, double* report, Lean* lean,
+              StepCommands* commands, std::int64_t tick) {
   const QuietWarnings quiet;  // a bad step is in the report, MuJoCo need not print it too
   const Untimed untimed;
   if (lean) lean->Begin(m);
+  if (commands) commands->Begin(tick);
   const int before = FatalWarnings(d);
   for (int i = 0; i < n; ++i) {
     const mjtNum time = d->time;
+    if (commands) commands->Write(tick + i, d);
     if (lean) {
       lean->Step(m, d, i + 1 == n);
     } else {
@@ -74,6 +80,7 @@ struct Stepped {
   mjData* d;
   double* report;
   Lean lean;
+  StepCommands commands;
 };
 
 }  // namespace
@@ -82,20 +89,54 @@ struct Stepped {
 // silently). Returns the number of good steps; report[0] = time at the start of the bad step,
 // report[1] = its dof or -1. Every step is MuJoCo's, whole.
 FSR_API int fsr_step(const mjModel* m, mjData* d, int n, double* report) {
-  return TakeSteps(m, d, n, report, nullptr);
+  return TakeSteps(m, d, n, report, nullptr, nullptr, 0);
 }
 
 // What fsr_lean_step steps; to be freed with fsr_lean_free, before m, d and report.
 FSR_API void* fsr_lean(const mjModel* m, mjData* d, double* report) {
-  return new Stepped{m, d, report, Lean(m)};
+  return new Stepped{m, d, report, Lean(m), {}};
 }
 
 FSR_API void fsr_lean_free(void* stepped) { delete static_cast<Stepped*>(stepped); }
 
-// As fsr_step, to the bit, without the work that cannot change the state (lean/lean.h).
-FSR_API int fsr_lean_step(void* stepped, int n) {
+// As fsr_step, to the bit, without the work that cannot change the state (lean/lean.h), and with
+// the commands that are written before each step; `tick` is the present one (StepClock).
+FSR_API int fsr_lean_step(void* stepped, int n, long long tick) {
   Stepped* s = static_cast<Stepped*>(stepped);
-  return TakeSteps(s->m, s->d, n, s->report, &s->lean);
+  return TakeSteps(s->m, s->d, n, s->report, &s->lean, &s->commands, tick);
+}
+
+// Forget all gaits.
+FSR_API void fsr_lean_forget_gaits(void* stepped) {
+  static_cast<Stepped*>(stepped)->commands.gaits.clear();
+}
+
+// Add a gait (class Gait): beat[2] numerator and denominator, wave[3] period, frequency and ramp,
+// for each of `count` joints its address in ctrl, and amplitude, phase and offset.
+FSR_API void fsr_lean_add_gait(void* stepped, const long long* beat, const double* wave, int count,
+                               const int* controls, const double* joints) {
+  std::vector<Gait::Joint> all;
+  for (int i = 0; i < count; ++i) {
+    const double* joint = joints + 3 * i;
+    all.push_back({controls[i], joint[0], joint[1], joint[2]});
+  }
+  static_cast<Stepped*>(stepped)->commands.gaits.emplace_back(beat[0], beat[1], wave[0], wave[1],
+                                                              wave[2], std::move(all));
+}
+
+// Hold these wrenches and no others (struct HeldWrench): addresses[3] position, velocity and 1 for
+// body axes, numbers[6] force and torque, for each of `count`.
+FSR_API void fsr_lean_hold_wrenches(void* stepped, int count, const int* addresses,
+                                    const double* numbers) {
+  std::vector<HeldWrench>& held = static_cast<Stepped*>(stepped)->commands.wrenches;
+  held.clear();
+  for (int i = 0; i < count; ++i) {
+    const int* address = addresses + 3 * i;
+    HeldWrench wrench{address[0], address[1], address[2] != 0, {}, {}};
+    Copy3(wrench.force, numbers + 6 * i);
+    Copy3(wrench.torque, numbers + 6 * i + 3);
+    held.push_back(wrench);
+  }
 }
 
 // What the steps leave out: out[0] why nothing at all (enum Whole, 0: they do), out[1] when
