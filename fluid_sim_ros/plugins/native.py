@@ -100,107 +100,88 @@ class Native:
     """
 
     def __init__(self, library: ctypes.CDLL) -> None:
-        pointer, integer = ctypes.c_void_p, ctypes.c_int
-        self.step: Callable[[int, int, int, int], int] = library.fsr_step
-        library.fsr_step.argtypes = [pointer, pointer, integer, pointer]
-        library.fsr_step.restype = integer
-        self.lean: Callable[[int, int, int], int] = library.fsr_lean
-        library.fsr_lean.argtypes = [pointer] * 3
-        library.fsr_lean.restype = pointer
-        self.lean_free: Callable[[int], None] = library.fsr_lean_free
-        library.fsr_lean_free.argtypes = [pointer]
-        library.fsr_lean_free.restype = None
-        self.lean_step: Callable[[int, int, int], int] = library.fsr_lean_step
-        library.fsr_lean_step.argtypes = [pointer, integer, ctypes.c_longlong]
-        library.fsr_lean_step.restype = integer
-        self.lean_add_gait: Callable[[int, int, int, int, int, int], None] = (
-            library.fsr_lean_add_gait
+        pointer, integer, bind = ctypes.c_void_p, ctypes.c_int, _bound
+        self.step: Callable[[int, int, int, int], int] = bind(
+            library.fsr_step, [pointer, pointer, integer, pointer], integer
         )
-        library.fsr_lean_add_gait.argtypes = [pointer] * 3 + [integer] + [pointer] * 2
-        library.fsr_lean_add_gait.restype = None
-        self.lean_forget_gaits: Callable[[int], None] = library.fsr_lean_forget_gaits
-        library.fsr_lean_forget_gaits.argtypes = [pointer]
-        library.fsr_lean_forget_gaits.restype = None
-        self.lean_hold_wrenches: Callable[[int, int, int, int], None] = (
-            library.fsr_lean_hold_wrenches
+        self.lean: Callable[[int, int, int], int] = bind(library.fsr_lean, [pointer] * 3, pointer)
+        self.lean_free: Callable[[int], None] = bind(library.fsr_lean_free, [pointer])
+        self.lean_step: Callable[[int, int, int], int] = bind(
+            library.fsr_lean_step, [pointer, integer, ctypes.c_longlong], integer
         )
-        library.fsr_lean_hold_wrenches.argtypes = [pointer, integer, pointer, pointer]
-        library.fsr_lean_hold_wrenches.restype = None
-        self.lean_about: Callable[[int, int], None] = library.fsr_lean_about
-        library.fsr_lean_about.argtypes = [pointer] * 2
-        library.fsr_lean_about.restype = None
-        self.observe: Callable[[int, int, int, int, int, int, int], None] = library.fsr_observe
-        library.fsr_observe.argtypes = [
-            pointer, pointer, pointer, pointer, integer, integer, pointer,
-        ]  # fmt: skip
-        library.fsr_observe.restype = None
-        self.raise_largest: Callable[[int, int, int, int, int, int, int, int], None] = (
-            library.fsr_raise_largest
+        self.lean_add_gait: Callable[[int, int, int, int, int, int], None] = bind(
+            library.fsr_lean_add_gait, [pointer] * 3 + [integer] + [pointer] * 2
         )
-        library.fsr_raise_largest.argtypes = [
-            pointer, pointer, pointer, pointer, integer, pointer, pointer, pointer,
-        ]  # fmt: skip
-        library.fsr_raise_largest.restype = None
-        self.runs: Callable[..., None] = library.fsr_runs
-        library.fsr_runs.argtypes = [
-            *[pointer] * 4, *[integer] * 4, *[pointer] * 6, integer, pointer, pointer, integer,
-            pointer,
-        ]  # fmt: skip
-        library.fsr_runs.restype = None
-        self.set_medium: Callable[[int, int, int, int], int] = library.fsr_set_medium
-        library.fsr_set_medium.argtypes = [pointer] * 4
-        library.fsr_set_medium.restype = integer
-        self.enable_medium: Callable[[int, int, int], int] = library.fsr_enable_medium
-        library.fsr_enable_medium.argtypes = [pointer, pointer, integer]
-        library.fsr_enable_medium.restype = integer
-        self.seed_medium: Callable[[int, int, float], int] = library.fsr_seed_medium
-        library.fsr_seed_medium.argtypes = [pointer, pointer, ctypes.c_double]
-        library.fsr_seed_medium.restype = integer
-        self.flow: Callable[[int, int, int, int, int], None] = library.fsr_flow
-        library.fsr_flow.argtypes = [pointer, pointer, integer, pointer, pointer]
-        library.fsr_flow.restype = None
-        self.get_medium: Callable[[int, int, int, int], int] = library.fsr_get_medium
-        library.fsr_get_medium.argtypes = [pointer] * 4
-        library.fsr_get_medium.restype = integer
-        self.explicit_force: Callable[[int, int, int, int], None] = library.fsr_explicit_force
-        library.fsr_explicit_force.argtypes = [pointer] * 4
-        library.fsr_explicit_force.restype = None
-        self.kinetic_energy: Callable[[int, int, int, int], None] = library.fsr_kinetic_energy
-        library.fsr_kinetic_energy.argtypes = [pointer] * 4
-        library.fsr_kinetic_energy.restype = None
-        self.energy_feed: Callable[[int, int, int, int], None] = library.fsr_energy_feed
-        library.fsr_energy_feed.argtypes = [pointer] * 4
-        library.fsr_energy_feed.restype = None
-        self.energy_take: Callable[[int, int, int, float, int], None] = library.fsr_energy_take
-        library.fsr_energy_take.argtypes = [pointer, pointer, pointer, ctypes.c_double, pointer]
-        library.fsr_energy_take.restype = None
-        self.forget_limits: Callable[[int, int], None] = library.fsr_forget_limits
-        library.fsr_forget_limits.argtypes = [pointer, pointer]
-        library.fsr_forget_limits.restype = None
-        self.thruster: Callable[[int, int, int, int], int] = library.fsr_thruster
-        library.fsr_thruster.argtypes = [pointer, pointer, integer, pointer]
-        library.fsr_thruster.restype = integer
-        self.surface: Callable[[int, int, int, int, int], int] = library.fsr_surface
-        library.fsr_surface.argtypes = [pointer, pointer, pointer, integer, pointer]
-        library.fsr_surface.restype = integer
-        self.beyond_grids: Callable[[int, int, int, int], int] = library.fsr_beyond_grids
-        library.fsr_beyond_grids.argtypes = [pointer] * 4
-        library.fsr_beyond_grids.restype = integer
-        self.acting_terms: Callable[[int, int, int, int], None] = library.fsr_acting_terms
-        library.fsr_acting_terms.argtypes = [pointer, pointer, integer, pointer]
-        library.fsr_acting_terms.restype = None
-        self.limits: Callable[[int, int, int, int], int] = library.fsr_limits
-        library.fsr_limits.argtypes = [pointer, pointer, integer, pointer]
-        library.fsr_limits.restype = integer
-        self._plugin_key = library.fsr_plugin_key
-        library.fsr_plugin_key.argtypes = [ctypes.c_char_p, integer]
-        library.fsr_plugin_key.restype = ctypes.c_char_p
-        self._plugin_config = library.fsr_plugin_config
-        library.fsr_plugin_config.argtypes = [pointer, integer, ctypes.c_char_p]
-        library.fsr_plugin_config.restype = ctypes.c_char_p
-        self._plugin_name = library.fsr_plugin_name
-        library.fsr_plugin_name.argtypes = [pointer, integer]
-        library.fsr_plugin_name.restype = ctypes.c_char_p
+        self.lean_forget_gaits: Callable[[int], None] = bind(
+            library.fsr_lean_forget_gaits, [pointer]
+        )
+        self.lean_hold_wrenches: Callable[[int, int, int, int], None] = bind(
+            library.fsr_lean_hold_wrenches, [pointer, integer, pointer, pointer]
+        )
+        self.lean_about: Callable[[int, int], None] = bind(library.fsr_lean_about, [pointer] * 2)
+        self.observe: Callable[[int, int, int, int, int, int, int], None] = bind(
+            library.fsr_observe, [pointer, pointer, pointer, pointer, integer, integer, pointer]
+        )
+        self.raise_largest: Callable[[int, int, int, int, int, int, int, int], None] = bind(
+            library.fsr_raise_largest, [pointer] * 4 + [integer] + [pointer] * 3
+        )
+        self.runs: Callable[..., None] = bind(
+            library.fsr_runs,
+            [pointer] * 4 + [integer] * 4 + [pointer] * 6
+            + [integer, pointer, pointer, integer, pointer],
+        )  # fmt: skip
+        self.set_medium: Callable[[int, int, int, int], int] = bind(
+            library.fsr_set_medium, [pointer] * 4, integer
+        )
+        self.enable_medium: Callable[[int, int, int], int] = bind(
+            library.fsr_enable_medium, [pointer, pointer, integer], integer
+        )
+        self.seed_medium: Callable[[int, int, float], int] = bind(
+            library.fsr_seed_medium, [pointer, pointer, ctypes.c_double], integer
+        )
+        self.flow: Callable[[int, int, int, int, int], None] = bind(
+            library.fsr_flow, [pointer, pointer, integer, pointer, pointer]
+        )
+        self.get_medium: Callable[[int, int, int, int], int] = bind(
+            library.fsr_get_medium, [pointer] * 4, integer
+        )
+        self.explicit_force: Callable[[int, int, int, int], None] = bind(
+            library.fsr_explicit_force, [pointer] * 4
+        )
+        self.kinetic_energy: Callable[[int, int, int, int], None] = bind(
+            library.fsr_kinetic_energy, [pointer] * 4
+        )
+        self.energy_feed: Callable[[int, int, int, int], None] = bind(
+            library.fsr_energy_feed, [pointer] * 4
+        )
+        self.energy_take: Callable[[int, int, int, float, int], None] = bind(
+            library.fsr_energy_take, [pointer, pointer, pointer, ctypes.c_double, pointer]
+        )
+        self.forget_limits: Callable[[int, int], None] = bind(
+            library.fsr_forget_limits, [pointer, pointer]
+        )
+        self.thruster: Callable[[int, int, int, int], int] = bind(
+            library.fsr_thruster, [pointer, pointer, integer, pointer], integer
+        )
+        self.surface: Callable[[int, int, int, int, int], int] = bind(
+            library.fsr_surface, [pointer, pointer, pointer, integer, pointer], integer
+        )
+        self.beyond_grids: Callable[[int, int, int, int], int] = bind(
+            library.fsr_beyond_grids, [pointer] * 4, integer
+        )
+        self.acting_terms: Callable[[int, int, int, int], None] = bind(
+            library.fsr_acting_terms, [pointer, pointer, integer, pointer]
+        )
+        self.limits: Callable[[int, int, int, int], int] = bind(
+            library.fsr_limits, [pointer, pointer, integer, pointer], integer
+        )
+        self._plugin_key = bind(
+            library.fsr_plugin_key, [ctypes.c_char_p, integer], ctypes.c_char_p
+        )
+        self._plugin_config = bind(
+            library.fsr_plugin_config, [pointer, integer, ctypes.c_char_p], ctypes.c_char_p
+        )
+        self._plugin_name = bind(library.fsr_plugin_name, [pointer, integer], ctypes.c_char_p)
         self.terms = _names(library.fsr_term)
         self.thruster_values = _names(library.fsr_thruster_value)
         self.columns = _columns(library.fsr_columns)
@@ -275,6 +256,11 @@ def native() -> Native:
             f'{path.name} and native.py are of different versions; '
             f'reinstall fluid_sim_ros ({error})'
         ) from error
+
+
+def _bound(function: Any, arguments: list[Any], result: Any = None) -> Any:
+    function.argtypes, function.restype = arguments, result
+    return function
 
 
 def _names(function: Any) -> tuple[str, ...]:
