@@ -12,8 +12,7 @@ from fluid_sim_ros.simulation.commands import Commands
 from fluid_sim_ros.simulation.engine import Engine
 from fluid_sim_ros.simulation.events import Events
 from fluid_sim_ros.simulation.fluid_terms import FluidTerms, check_flows, no_flow_line
-from fluid_sim_ros.simulation.saved_state import SavedState
-from fluid_sim_ros.simulation.snapshot import Snapshot
+from fluid_sim_ros.simulation.snapshot import SavedState, Snapshot
 from fluid_sim_ros.simulation.vehicle_wrenches import VehicleWrenches
 from fluid_sim_ros.simulation.warning_log import WarningLog
 from fluid_sim_ros.step_clock import StepClock
