@@ -34,6 +34,9 @@ class Frame:
         Vehicles that are held by a law, and follow the keys.
     note
         What went wrong for good, such as a divergence; or empty.
+    weather
+        State of the plugins, of which the flow around the vehicles follows, shape
+        (npluginstate,); None where the source does not know it.
     ghost
         Another pose of the model to draw beside it, pale, shape (nq,); None: there is none.
 
@@ -48,6 +51,7 @@ class Frame:
     paused: bool = False
     steered: tuple[str, ...] = ()
     note: str = ''
+    weather: Array | None = None
     ghost: Array | None = None
 
     def forces(self, vehicle: int, terms: Sequence[str]) -> dict[str, Array]:

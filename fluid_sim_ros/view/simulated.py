@@ -190,7 +190,7 @@ class SimulatedSource(Source):
         self._frame = Frame(
             simulation.time, simulation.data.qpos.copy(), rows, simulation.data.ctrl.copy(),
             observed.actuator_force.copy(), self._flows(), self._runner.paused,
-            self._helmsman.held, self._note,
+            self._helmsman.held, self._note, simulation.data.plugin_state.copy(),
         )  # fmt: skip
 
     def _flows(self) -> dict[str, Array]:

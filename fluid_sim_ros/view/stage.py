@@ -1,12 +1,14 @@
 """A model posed as a frame has it: bodies, force arrows, water; without drawing anything."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.plugins import surface
 from fluid_sim_ros.plugins.drawn_arrow import extent
 from fluid_sim_ros.scene.vehicle import Vehicle, weight_in_air
@@ -16,6 +18,8 @@ from fluid_sim_ros.view.frame import Frame
 LENGTH = 2.0
 #: Forces below this share of the weight are not drawn.
 _LEAST = 1e-3
+#: A fluid without a surface is a liquid above this density [kg/m^3].
+_LIQUID = 100.0
 #: Without a weight to compare with [N].
 _NO_WEIGHT = 1.0
 
@@ -84,6 +88,8 @@ class Stage:
         """
         self.data.qpos[:] = frame.qpos
         self.data.time = frame.time
+        if frame.weather is not None:
+            self.data.plugin_state[:] = frame.weather
         mujoco.mj_kinematics(self.model, self.data)
         if frame.ghost is not None:
             self.ghost.qpos[:] = frame.ghost
@@ -191,56 +197,51 @@ class Stage:
         """
         return surface.surface_heights(self.model, self.data, points)
 
+    def flow(self, frame: Frame, name: str, points: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """
+        Return the velocity of the fluids at points, at the time of the last posed frame.
 
-def welded(model: mujoco.MjModel) -> dict[int, list[int]]:
-    """
-    Return the geoms that move as one, by the body whose pose they follow.
+        It is what the vehicle would meet there: means, profiles, grids, gusts, its own turbulence
+        and the orbital velocity of waves. Where the source knows the flow at the vehicle alone
+        (a log, a node), that is taken, and how the scene's own flow differs from there.
 
-    Parameters
-    ----------
-    model
-        The compiled model.
+        Parameters
+        ----------
+        frame
+            That was posed.
+        name
+            Of the vehicle.
+        points
+            World [m], shape (n, 3).
 
-    Returns
-    -------
-    dict
-        Body id -> ids of the geoms that are drawn: those that are visible, of the groups that
-        MuJoCo's viewer shows.
+        Returns
+        -------
+        velocities
+            World axes [m/s], shape (n, 3); zeros where nothing is known.
+        liquid
+            Which points lie in the liquid, shape (n,).
 
-    """
-    found: dict[int, list[int]] = {}
-    for geom in range(model.ngeom):
-        if model.geom_group[geom] > 2 or _rgba(model, geom)[3] == 0.0:
-            continue
-        root = int(model.body_weldid[model.geom_bodyid[geom]])
-        found.setdefault(root, []).append(geom)
-    return found
+        """
+        body, row = self.vehicles[name].body_id, frame.rows[list(self.vehicles).index(name)]
+        place = self.data.xpos[body]
+        velocities = np.array([self._flow_at(body, point) for point in points])
+        liquid = self._in_liquid(points)
+        known = row[nat.MEDIUM_VELOCITY]
+        if frame.weather is None and np.isfinite(known).all():
+            alike = liquid == self._in_liquid(place[np.newaxis])[0]
+            velocities[alike] += known - self._flow_at(body, place)
+        return velocities, liquid
 
+    def _flow_at(self, body: int, point: Array) -> Array:
+        out, at = np.zeros(9), np.ascontiguousarray(point)
+        nat.native().flow(
+            self.model._address, self.data._address, body, at.ctypes.data, out.ctypes.data
+        )
+        return out[:3]
 
-def _rgba(model: mujoco.MjModel, geom: int) -> Array:
-    material = int(model.geom_matid[geom])
-    rgba: Array = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
-    return rgba
-
-
-def colors(model: mujoco.MjModel, geoms: Sequence[int]) -> dict[tuple[float, ...], list[int]]:
-    """
-    Return geoms by their colour.
-
-    Parameters
-    ----------
-    model
-        The compiled model.
-    geoms
-        Their ids.
-
-    Returns
-    -------
-    dict
-        (red, green, blue, opacity), 0 to 1 -> ids.
-
-    """
-    found: dict[tuple[float, ...], list[int]] = {}
-    for geom in geoms:
-        found.setdefault(tuple(float(x) for x in _rgba(model, geom)), []).append(geom)
-    return found
+    def _in_liquid(self, points: Array) -> NDArray[np.bool_]:
+        kind, heights = self.water(points[:, :2])
+        if kind == surface.NO_SURFACE:
+            return np.full(len(points), float(self.model.opt.density) > _LIQUID)
+        below: NDArray[np.bool_] = points[:, 2] < heights
+        return below

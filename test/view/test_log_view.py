@@ -27,8 +27,13 @@ def log(tmp_path_factory):
     return open_log(path)
 
 
-def test_a_log_is_scrubbed_over_the_pages_protocol(log):
-    source = LogSource(log, paused=True)
+@pytest.fixture(scope='module')
+def source(log):
+    """Return the log as a source, opened once."""
+    return LogSource(log, paused=True)
+
+
+def test_a_log_is_scrubbed_over_the_pages_protocol(source):
     with opened(source) as page, client(page.url) as browser:
         browser.set('time [s]', 0.5)
         browser.wait_for(lambda page: any('t = 0.50 s' in text for text in page.texts()))
@@ -38,8 +43,7 @@ def test_a_log_is_scrubbed_over_the_pages_protocol(log):
         browser.wait_for(lambda page: time_of(page) > 0.25)
 
 
-def test_a_frame_says_what_the_log_says(log):
-    source = LogSource(log, paused=True)
+def test_a_frame_says_what_the_log_says(source):
     assert source.span == (0.0, 1.0)
     source.take(orders.Seek(0.7))
     frame = source.frame()
@@ -62,8 +66,8 @@ def test_another_flight_is_drawn_beside_it(log):
         assert 0.01 < np.linalg.norm(frame.ghost[:3] - frame.qpos[:3]) < 5.0
 
 
-def test_what_a_log_cannot_do_is_one_line(log):
+def test_what_a_log_cannot_do_is_one_line(log, source):
     with pytest.raises(CommandError, match='takes no order Thrust'):
-        LogSource(log).take(orders.Thrust('x500', [0.0] * 4))
+        source.take(orders.Thrust('x500', [0.0] * 4))
     with pytest.raises(ConfigError, match='wrench'):
         LogSource(log, ['wrench=1'])

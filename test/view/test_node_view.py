@@ -8,7 +8,11 @@ import pytest
 pytest.importorskip('viser', reason='the extra view is not installed')
 pytest.importorskip('rclpy', reason='ROS is not here')
 
-from test.support.ros_processes import NODE, Process
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from websockets.sync.client import connect
+
+from test.support.ros_processes import NODE, Peer, Process, controller, wait_until
 from test.support.view_client import client
 from test.support.view_pages import time_of
 
@@ -42,6 +46,40 @@ def test_a_node_is_seen_paused_stepped_and_commanded():
             browser.click('Reset')
             browser.wait_for(lambda page: time_of(page) < at)
         assert node.alive
+
+
+@pytest.mark.full
+def test_keys_steer_a_node_whose_controller_follows_cmd_vel():
+    with Process(NODE, scene='rov') as node, Process(
+        'fluid_sim_ros.cli', 'view', '--node', '--port', '0'
+    ) as view, Peer() as peer:  # fmt: skip
+        odometry = peer.collect(Odometry, 'bluerov2_heavy/odom')
+        url = url_of(view)
+        with client(url) as browser, keys_of(url) as keys:
+            browser.wait_for(lambda page: time_of(page) > 0.1)
+            keys.send('[0, 0, 1, 0]')
+            browser.wait_for(lambda page: any('nobody follows' in t for t in page.texts()))
+            keys.send('[0, 0, 0, 0]')
+            with controller('rov', vehicle='bluerov2_heavy') as flown:
+                wait_until(lambda: 'bluerov2_heavy' in flown.output or len(odometry) > 300, 'it')
+                start = odometry[-1].pose.pose.position.z
+                seen = peer.collect(Twist, 'bluerov2_heavy/cmd_vel')
+
+                def rises():
+                    keys.send('[0, 0, 1, 0]')  # again: the controller subscribes in its own time
+                    time.sleep(0.1)
+                    return odometry[-1].pose.pose.position.z > start + 0.4
+
+                wait_until(rises, 'a rise')
+                assert seen[-1].linear.z == pytest.approx(0.4)
+                keys.send('[0, 0, 0, 0]')  # on release it holds
+                wait_until(lambda: seen[-1].linear.z == 0.0, 'the release')
+        assert node.alive
+
+
+def keys_of(url):
+    """Return a connection of the page's script for keys."""
+    return connect(url.replace('http', 'ws', 1) + 'steer', origin=url.rstrip('/'))
 
 
 def forces(page):

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from fluid_sim_ros.cli.view.node_link import NodeLink
+from fluid_sim_ros.cli.view.node_steering import NodeSteering
 from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import (
     read_float64_multi_array,
@@ -68,7 +69,10 @@ class NodeSource(Source):
         self.title = f'{link.target}: {simulation.scene.name}'
         self.model, self.vehicles = simulation.model, simulation.vehicles
         self.terms, self.streams = simulation.terms, simulation.streams
-        kinds = {orders.Pause, orders.Step, orders.Reset, orders.Joint, orders.Flow}
+        kinds = {
+            orders.Pause, orders.Step, orders.Reset, orders.Joint, orders.Flow, orders.Steer,
+        }  # fmt: skip
+        self._steering = NodeSteering(link, simulation)
         if asked['thrust.unit'] == 'newton':
             kinds.add(orders.Thrust)
         else:
@@ -214,6 +218,8 @@ class NodeSource(Source):
             case orders.Joint(vehicle, joint, value):
                 data = _filled(JOINT_STATE, {'name': [joint], 'position': [0.0]}, [value])
                 self._publish(JOINT_STATE, f'{vehicle}/cmd/joints', data, False)
+            case orders.Steer():
+                self._steering.steer(order)
             case orders.Flow(stream, velocity):
                 if stream not in self.streams:
                     raise CommandError(f"'{stream}' is not in the scene")
@@ -221,8 +227,9 @@ class NodeSource(Source):
                 self._flows[stream] = np.array(velocity, dtype=float)
 
     def run(self) -> None:
-        """Repeat the thrusts of the sliders until ``stop``."""
+        """Repeat the thrusts of the sliders, and the velocities of the keys, until ``stop``."""
         while not self._ended.wait(_AGAIN):
+            self._steering.repeat()
             for topic, data in list(self._sent_again.items()):
                 self._outputs[topic].publish(data)
 

@@ -66,6 +66,15 @@ class ForcesPanel:
                            hint='than weight and thrust; in air they are small'),
             set_fluid_scale, say,
         )  # fmt: skip
+
+        def set_flow_scale(value: Any) -> None:
+            looks.flow_scale = float(np.clip(checked(value), 0.1, 10.0))
+
+        on_user(
+            gui.add_slider('length of wind and current', 0.1, 10.0, 0.1, looks.flow_scale,
+                           hint='1: one length of the vehicle for 5 m/s of wind, 0.5 of current'),
+            set_flow_scale, say,
+        )  # fmt: skip
         terms = (*self._source.terms[looks.vehicle], 'thrust', 'weight', 'total')
         if not looks.terms:
             looks.terms = {term for term in terms if term not in _OFF}
@@ -75,7 +84,7 @@ class ForcesPanel:
                 partial(self._show_term, term), say,
             )  # fmt: skip
         for name, key in (
-            ('names at the arrows', 'labels'), ('wind or current', 'flow'), ('trail', 'trail'),
+            ('names at the arrows', 'labels'), ('wind and current', 'flow'), ('trail', 'trail'),
             ('each thruster apart', 'each_thruster'),
         ):  # fmt: skip
             on_user(

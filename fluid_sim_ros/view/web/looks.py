@@ -22,6 +22,8 @@ class Looks:
         Of the arrows; 1: the weight is two extents of the vehicle long.
     fluid_scale
         How much longer the arrows of fluid forces are drawn.
+    flow_scale
+        Length of the arrows of wind and current; 1: one extent for 5 m/s and 0.5 m/s.
     labels, flow, trail, each_thruster
         Whether these are drawn.
 
@@ -32,6 +34,7 @@ class Looks:
     terms: set[str] = field(default_factory=set)
     scale: float = 1.0
     fluid_scale: float = 1.0
+    flow_scale: float = 1.0
     labels: bool = True
     flow: bool = True
     trail: bool = True

@@ -167,6 +167,7 @@ class Panels:
         if orders.Hold in source.takes and vehicle.thrusters:
             self._held = self._gui.add_checkbox('hold and steer', False)
             self._on(self._held, lambda value: self._touch(orders.Hold(name, bool(value))))
+        if orders.Steer in source.takes and vehicle.thrusters:
             self._gui.add_markdown(KEYS)
         if orders.Thrust in source.takes and vehicle.thrusters:
             with self._gui.add_folder('thrusters [N]'):

@@ -1,7 +1,7 @@
 """The scene of the page: vehicles, ground, water, force arrows, flow, trail, camera."""
 
 from collections import deque
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,18 +11,14 @@ import viser
 
 from fluid_sim_ros.output.term_colors import rgb, term_color
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.view.drawn_geoms import colors, welded
 from fluid_sim_ros.view.frame import Frame
-from fluid_sim_ros.view.stage import Arrow, Stage, colors, welded
+from fluid_sim_ros.view.stage import Arrow, Stage
+from fluid_sim_ros.view.web.flow import FlowField, show_arrows
 from fluid_sim_ros.view.web.looks import Looks
 from fluid_sim_ros.view.web.shapes import triangles
 from fluid_sim_ros.view.web.surroundings import Surroundings
 
-#: A flow of this speed [m/s] is drawn one extent of the vehicle long: wind, current.
-FLOW_LENGTH = {'wind': 5.0, 'current': 0.5}
-_FLOW_COLORS = {'wind': (110, 130, 160), 'current': (0, 120, 140)}
-#: Places of the arrows of a flow, across and up [extents].
-_FLOW_PLACES = [(a, b) for a in (-1.4, 1.4) for b in (-0.7, 0.0, 0.7)]
 #: A trail has this many points, this far apart [extents].
 _TRAIL, _APART = 500, 0.15
 #: Arrows of one vehicle start this far from each other [extents], so that none hides another.
@@ -66,10 +62,7 @@ class Scene:
             '/world/forces', none, (0, 0, 0), shaft_radius=0.025 * extent,
             head_radius=0.07 * extent, head_length=0.16 * extent, visible=False,
         )  # fmt: skip
-        self._flow = self._api.add_arrows(
-            '/world/flow', none, (0, 0, 0), shaft_radius=0.012 * extent,
-            head_radius=0.045 * extent, head_length=0.12 * extent, visible=False,
-        )  # fmt: skip
+        self._flow = FlowField(server, stage, looks)
         self._labels: dict[str, Any] = {}
         self._trail = self._api.add_line_segments(
             '/world/trail', none, (230, 80, 60), thickness=2.0, thickness_units='screen'
@@ -98,7 +91,7 @@ class Scene:
                 handle.position, handle.wxyz = data.xpos[body], data.xquat[body]
             self._draw_ghost(frame)
             self._draw_forces(frame)
-            self._draw_flow(frame, place)
+            self._flow.draw(frame, place)
             self._draw_trail(frame, place)
             self._around.draw(place, self._eye(place))
 
@@ -190,7 +183,7 @@ class Scene:
             arrows += [*found, *each]
             if name == looks.vehicle:
                 tips = [*found, *self._named(each)]
-        self._show_arrows(
+        show_arrows(
             self._arrows,
             [np.stack([arrow.start, arrow.start + arrow.along]) for arrow in arrows],
             [rgb(term_color(arrow.term)) for arrow in arrows],
@@ -232,45 +225,6 @@ class Scene:
     def _longer(self) -> str:
         scale = self._looks.fluid_scale
         return f' (drawn {scale:g} x)' if scale != 1.0 else ''
-
-    def _draw_flow(self, frame: Frame, place: Array) -> None:
-        row = frame.rows[list(self._stage.vehicles).index(self._looks.vehicle)]
-        flow = row[nat.MEDIUM_VELOCITY]
-        speed = float(np.linalg.norm(flow))
-        stream = 'current' if self._around.is_under(place) else 'wind'
-        extent, label = self._extent, self._labels.get('flow')
-        wanted = self._looks.flow and np.isfinite(speed) and speed > 0.01 * FLOW_LENGTH[stream]
-        points: list[Array] = []
-        if wanted:
-            along = flow / speed
-            across = np.cross(along, [0.0, 0.0, 1.0])
-            across = across / (np.linalg.norm(across) or 1.0)
-            up = np.cross(across, along)
-            length = flow / FLOW_LENGTH[stream] * extent
-            middle = place - 0.5 * length
-            points = [
-                np.stack([start, start + length])
-                for start in (middle + (a * across + b * up) * extent for a, b in _FLOW_PLACES)
-            ]
-        self._show_arrows(self._flow, points, [_FLOW_COLORS[stream]] * len(points))
-        if wanted and label is None:
-            label = self._labels['flow'] = self._api.add_label(
-                '/world/label_flow', '', anchor='bottom-center', font_screen_scale=0.9
-            )
-        if label is not None:
-            label.visible = bool(wanted and self._looks.labels)
-            if wanted:
-                label.text = f'{stream} {speed:.3g} m/s'
-                label.position = points[1][0] + np.array([0.0, 0.0, 0.15 * extent])
-
-    @staticmethod
-    def _show_arrows(
-        handle: Any, points: Sequence[Array], shades: Collection[tuple[int, int, int]]
-    ) -> None:
-        handle.visible = bool(points)
-        if points:
-            handle.points = np.asarray(points, dtype=np.float32)
-            handle.colors = np.array(shades, dtype=np.uint8)
 
     def _draw_trail(self, frame: Frame, place: Array) -> None:
         passed = self._passed
