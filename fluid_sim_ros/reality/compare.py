@@ -14,6 +14,7 @@ from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
+from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, floats, without_air
 from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
@@ -104,6 +105,7 @@ def compare(
     before = lead_in(driven, flyer.timestep)
     windows = cut(flight, horizons[-1], begin=part.begin, end=part.end, before=before)
     windows, at_rest = airborne(windows, flyer)
+    windows = with_parts(windows, driven)
     measured = windows.measured(np.array(horizons))
     found = {'model': errors(fly_windows(flyer, windows, horizons), measured)}
     start = windows.measured(0.0)
@@ -181,7 +183,7 @@ def fly_windows(flyer: Flyer, windows: Windows, horizons: Sequence[float]) -> Ar
     start = windows.measured(0.0)
     controls = windows.controls(flyer.driven, step)[:, : every[-1]]
     spun = first_speeds(flyer, windows, start)
-    return flyer.fly(flyer.states(start, windows.clock, spun), controls, every)
+    return flyer.fly(flyer.states(start, windows, spun), controls, every)
 
 
 def by_horizon(horizons: Sequence[float], found: dict[str, Array]) -> dict[str, Any]:

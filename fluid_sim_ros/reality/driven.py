@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.flights.flight import Flight, FlightError
@@ -84,6 +85,23 @@ class Driven:
     lag: float
     speed_columns: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether the model has degrees of freedom besides those of the vehicle."""
+        return bool(self.model.nv > 6)
+
+    @property
+    def other_positions(self) -> NDArray[np.int64]:
+        """Places in qpos of all that is not the vehicle's own."""
+        at = self.vehicle.qpos_address
+        return np.delete(np.arange(self.model.nq), np.arange(at, at + 7))
+
+    @property
+    def other_velocities(self) -> NDArray[np.int64]:
+        """Places in qvel of all that is not the vehicle's own."""
+        at = self.vehicle.dof_address
+        return np.delete(np.arange(self.model.nv), np.arange(at, at + 6))
 
 
 def comparable_scene(name: str) -> Scene:
@@ -163,7 +181,8 @@ def drive(
     kind = 'thrust' if kind == 'thrust_speed' else kind
     lag = _longest_lag(model, vehicle)
     speeds = _speed_columns(model, vehicle, flight) if lag else ()
-    return Driven(model, vehicle, kind, columns, controls, lag, speeds, (*notes, *thinned))
+    found = Driven(model, vehicle, kind, columns, controls, lag, speeds, (*notes, *thinned))
+    return replace(found, notes=(*found.notes, *_about_parts(found)))
 
 
 def strip(spec: mujoco.MjSpec) -> None:
@@ -221,6 +240,22 @@ def floats(driven: Driven) -> bool:
     """
     body = plugin_of_body(driven.model, driven.vehicle.body_id, BODY)
     return body is not None and bool(body.text('volume'))
+
+
+def _about_parts(driven: Driven) -> tuple[str, ...]:
+    """Return what a reader must know of parts that no log has."""
+    if not driven.has_parts:
+        return ()
+    model = driven.model
+    names = list(dict.fromkeys(
+        model.body(int(model.dof_bodyid[dof])).name or 'unnamed'
+        for dof in driven.other_velocities
+    ))  # fmt: skip
+    shown = ', '.join(names[:3]) + (f' and {len(names) - 3} more' if len(names) > 3 else '')
+    return (
+        f'{shown}: in no log; at rest at the begin of the flight, carried along its measured '
+        'motion, and flown from there',
+    )
 
 
 def _vehicle(vehicles: dict[str, Vehicle], wanted: str, scene: str) -> Vehicle:

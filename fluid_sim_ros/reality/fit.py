@@ -21,6 +21,7 @@ from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.flight import STATE, Flight
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
+from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.fitting.doubt import doubts
 from fluid_sim_ros.reality.fitting.shooting import Shots
@@ -167,6 +168,7 @@ def cut_shots(flights: Sequence[Flight], task: Task) -> tuple[list[Shots], list[
         windows = cut(flight, task.length, begin=task.begin, end=task.end, apart=task.length,
                       before=lead_in(driven, flyer.timestep))  # fmt: skip
         windows, left = airborne(windows, flyer)
+        windows = with_parts(windows, driven)
         lines += [f'{flight.name}: {n} windows {why}' for why, n in left.items()]
         lines += [f'{flight.name}: {note}' for note in driven.notes]
         step = max(1, round(task.sample / flyer.timestep)) * flyer.timestep

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import Driven
-from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, WIDTH
+from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, WIDTH, Windows
 
 _STATE = int(mujoco.mjtState.mjSTATE_FULLPHYSICS)
 #: Pieces that a batch of windows is cut into for each thread.
@@ -43,10 +43,13 @@ class Flyer:
         ids = vehicle.thruster_ids
         has = model.actuator_actnum[ids] > 0
         self._act = 1 + model.nq + model.nv + model.actuator_actadr[ids][has]
+        self._others = np.concatenate([
+            1 + driven.other_positions, 1 + model.nq + driven.other_velocities
+        ])  # fmt: skip
         self._blank = np.empty(self._size)
         mujoco.mj_getState(model, self._data[0], self._blank, _STATE)
 
-    def states(self, start: Array, times: Array, spun: Array | None) -> Array:
+    def states(self, start: Array, windows: Windows, spun: Array | None) -> Array:
         """
         Return full states of the engine, shape (w, n).
 
@@ -54,14 +57,16 @@ class Flyer:
         ----------
         start
             States of the vehicle, shape (w, 13).
-        times
-            Of the model's clock at the begins [s], shape (w,): ``Windows.clock``.
+        windows
+            Whose begins these are: the time of the model's clock, and where its other parts are.
         spun
             Speeds of the rotors that have a lag [rad/s], shape (w, m); None: at rest.
 
         """
         full = np.tile(self._blank, (len(start), 1))
-        full[:, 0] = times
+        full[:, 0] = windows.clock
+        if windows.parts is not None:
+            full[:, self._others] = windows.parts
         at = self._qpos
         full[:, at : at + 3], full[:, at + 3 : at + 7] = start[:, POSITION], start[:, ATTITUDE]
         at = self._qvel

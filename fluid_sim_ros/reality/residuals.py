@@ -10,6 +10,7 @@ from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 from fluid_sim_ros.plugins import native as nat
+from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import Driven
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.spinning import first_speeds
@@ -131,8 +132,8 @@ def accelerations(flyer: Flyer, flight: Flight, times: Array) -> Accelerations:
     states = state_at(flight, times)
     taken = signal.between if driven.kind == 'rotor_speed' else signal.held
     controls = driven.controls(taken(times)[:, list(driven.columns)])
-    looks = Windows(flight, times, 0.0, {})
-    force, turn = _model(driven, states, looks.clock, controls, first_speeds(flyer, looks, states))
+    looks = with_parts(Windows(flight, times, 0.0, {}), driven)
+    force, turn = _model(driven, states, looks, controls, first_speeds(flyer, looks, states))
     return Accelerations(force, turn, controls)
 
 
@@ -147,17 +148,22 @@ def _times(windows: Windows) -> Array:
 
 
 def _model(
-    driven: Driven, states: Array, clock: Array, controls: Array, spun: Array | None
+    driven: Driven, states: Array, looks: Windows, controls: Array, spun: Array | None
 ) -> tuple[Array, Array]:
     engine = Engine(driven.model, [driven.vehicle.body_id])
     model, data, vehicle = engine.model, engine.data, driven.vehicle
     at, dof = vehicle.qpos_address, vehicle.dof_address
     has = model.actuator_actnum[vehicle.thruster_ids] > 0
+    qpos, qvel = driven.other_positions, driven.other_velocities
     acts = model.actuator_actadr[vehicle.thruster_ids][has]
     force, turn = np.empty((len(states), 3)), np.empty((len(states), 3))
+    clock = looks.clock
     for i, state in enumerate(states):
         data.time = clock[i]
         data.qpos[at : at + 7], data.qvel[dof : dof + 6] = state[:7], state[7:]
+        if looks.parts is not None:
+            data.qpos[qpos] = looks.parts[i, : len(qpos)]
+            data.qvel[qvel] = looks.parts[i, len(qpos) :]
         data.ctrl[vehicle.thruster_ids] = controls[i]
         if spun is not None:
             data.act[acts] = spun[i]

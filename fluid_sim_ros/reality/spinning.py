@@ -56,5 +56,5 @@ def first_speeds(flyer: Flyer, windows: Windows, start: Array) -> Array | None:
         return signal.between(windows.begins)[:, list(driven.speed_columns)]
     before = lead_in(driven, flyer.timestep)
     lead = windows.controls(driven, flyer.timestep, before)
-    full = flyer.states(start, windows.clock, None)
+    full = flyer.states(start, windows, None)
     return flyer.spin_up(full, lead[:, : round(before / flyer.timestep)])

@@ -34,6 +34,9 @@ class Windows:
         [s].
     left_out
         How many are not used, by reason.
+    parts
+        Positions, then velocities, of what is in the model besides the vehicle, at the begins,
+        shape (w, n): ``carried.with_parts``; None: as the model has it.
 
     """
 
@@ -41,6 +44,7 @@ class Windows:
     begins: Array
     length: float
     left_out: dict[str, int]
+    parts: Array | None = None
 
     @property
     def clock(self) -> Array:

@@ -13,6 +13,7 @@ from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
+from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.charting.rungs import ladder
 from fluid_sim_ros.reality.compare import fly_windows
 from fluid_sim_ros.reality.driven import Driven, comparable_scene, drive
@@ -93,6 +94,7 @@ def chart_against(
     windows, _ = airborne(windows, Flyer(richest))
     every = -(-len(windows.begins) // _MOST)
     windows = Windows(flight, windows.begins[::every], windows.length, windows.left_out)
+    windows = with_parts(windows, richest)
     measured = windows.measured(np.array([chosen.horizon]))
     points, gaps = [], {}
     total, done = len(rungs) * (1 + len(chosen.integrators) * len(chosen.timesteps)), 0
@@ -156,7 +158,7 @@ def _cost(flyer: Flyer, windows: Windows, horizon: float) -> float:
     """Return the processor time of one simulated second [us], in one thread."""
     start = windows.measured(0.0)
     controls = windows.controls(flyer.driven, flyer.timestep)[:, : round(horizon / flyer.timestep)]
-    full = flyer.states(start, windows.clock, None)
+    full = flyer.states(start, windows, None)
     spent = []
     for _ in range(_TIMED):
         begin = time.process_time()

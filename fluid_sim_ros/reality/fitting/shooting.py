@@ -211,7 +211,7 @@ class Shooter:
         shots, step = self.shots, flyer.timestep
         every = [max(1, round(seconds / step)) for seconds in shots.after[1:]]
         controls = shots.windows.controls(flyer.driven, step)[:, : every[-1]]
-        full = flyer.states(start, shots.windows.clock, spun)
+        full = flyer.states(start, shots.windows, spun)
         found = np.concatenate([start[:, None], flyer.fly(full, controls, every)], axis=1)
         off: Array = np.nan_to_num(error_vectors(found, shots.wanted) * self.weights, nan=1e6)
         return off.reshape(len(start), -1) * self.trust
