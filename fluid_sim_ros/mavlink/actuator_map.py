@@ -1,6 +1,8 @@
 """Turns the outputs of an autopilot into commands of a vehicle, as a mapping says."""
 
+import ctypes
 import math
+import struct
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -8,10 +10,13 @@ from pathlib import Path
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.mavlink.mapping import ActuatorFile, AutopilotFile
 from fluid_sim_ros.physics.t200 import t200_table
+from fluid_sim_ros.plugins.exchange import CURVES, OutputCurve, exchange_library
 from fluid_sim_ros.scene.vehicle import Vehicle
 
 #: Outputs of a HIL_ACTUATOR_CONTROLS and of the longest servo packet.
 OUTPUTS = {'px4': 16, 'ardupilot': 32}
+#: Outputs of the longest of them.
+_MOST = max(OUTPUTS.values())
 #: An output that drives nothing counts as commanded when it has moved by this share of 1.
 _MOVED = 0.05
 #: Values of pulse width [us] are larger than this, controls of PX4 are not.
@@ -63,6 +68,14 @@ class ActuatorMap:
             (joints[name].output - 1, _curve(joints[name], *limits))
             for name, limits in zip(vehicle.joints, vehicle.joint_range.tolist(), strict=True)
         ]
+        self._compiled = _Compiled([
+            (actuators[name], *limits)
+            for actuators, names, ranges in (
+                (thrusters, vehicle.thrusters, vehicle.thrust_range),
+                (joints, vehicle.joints, vehicle.joint_range),
+            )
+            for name, limits in zip(names, ranges.tolist(), strict=True)
+        ])  # fmt: skip
         self._span = max(a.input[-1] - a.input[0] for a in file.actuators)
         self._watched = sorted(set(range(1, 33)) - {*outputs, *file.ignored})
         self._seen: Sequence[float] = ()
@@ -83,6 +96,19 @@ class ActuatorMap:
         -------
         thrusts, joints
             [N], and [rad] or [m] as the joint's actuator takes it.
+
+        """
+        commands, count = self._compiled(outputs), len(self._thrusters)
+        return commands[:count], commands[count:]
+
+    def plain_commands(self, outputs: Sequence[float]) -> tuple[list[float], list[float]]:
+        """
+        Return the same as ``commands``: its twin in Python.
+
+        Parameters
+        ----------
+        outputs
+            See there.
 
         """
         thrusts = [curve(outputs[place]) for place, curve in self._thrusters]
@@ -115,6 +141,38 @@ class ActuatorMap:
         return None
 
 
+class _Compiled:
+    """All curves in one call of the library."""
+
+    def __init__(self, actuators: list[tuple[ActuatorFile, float, float]]) -> None:
+        count = len(actuators)
+        self._curves = (OutputCurve * count)()
+        self._tables = []  # kept as long as the library reads them
+        for curve, (a, low, high) in zip(self._curves, actuators, strict=True):
+            rest, ahead, back = _slopes(a)
+            curve.place, curve.reversed, curve.silent = a.output - 1, a.reversed, rest >= _PULSE
+            curve.kind = CURVES.index(a.curve) if a.thruster else 0
+            curve.rest, curve.ahead, curve.back = rest, ahead, back
+            curve.low, curve.high = low, high
+            if curve.kind == CURVES.index('t200'):
+                table = t200_table(a.voltage).T.copy()
+                curve.pulses, curve.thrusts = table[0].ctypes.data, table[1].ctypes.data
+                curve.points = table.shape[1]
+                self._tables.append(table)
+        self._outputs, self._commands = (ctypes.c_double * _MOST)(), (ctypes.c_double * count)()
+        self._run = exchange_library().outputs
+        self._arguments = (
+            ctypes.addressof(self._curves), count, ctypes.addressof(self._outputs),
+            ctypes.addressof(self._commands),
+        )  # fmt: skip
+        self._layouts = {n: struct.Struct(f'={n}d') for n in range(_MOST + 1)}
+
+    def __call__(self, outputs: Sequence[float]) -> list[float]:
+        self._layouts[len(outputs)].pack_into(self._outputs, 0, *outputs)
+        self._run(*self._arguments)
+        return self._commands[:]
+
+
 def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]) -> None:
     """Raise unless each of the existing thrusters or joints is driven exactly once."""
     driven = [name for name in driven if name]
@@ -135,9 +193,7 @@ def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]
 
 def _curve(actuator: ActuatorFile, low: float, high: float) -> Curve:
     """Return the command [N or rad] of an output's value, between the actuator's limits."""
-    points = actuator.input
-    rest, full = points[-2:]
-    ahead, back = 1.0 / (full - rest), 1.0 / (rest - points[0]) if len(points) == 3 else 0.0
+    rest, ahead, back = _slopes(actuator)
     silent = rest >= _PULSE  # an output that is off sends no pulse
     command = _by_share(actuator, low, high)
 
@@ -150,6 +206,14 @@ def _curve(actuator: ActuatorFile, low: float, high: float) -> Curve:
         return command(share)
 
     return curve
+
+
+def _slopes(actuator: ActuatorFile) -> tuple[float, float, float]:
+    """Return the value at rest, and the shares of full command per value ahead and back."""
+    points = actuator.input
+    rest, full = points[-2:]
+    back = 1.0 / (rest - points[0]) if len(points) == 3 else 0.0
+    return rest, 1.0 / (full - rest), back
 
 
 def _by_share(actuator: ActuatorFile, low: float, high: float) -> Curve:

@@ -1,5 +1,6 @@
 """The true state of a vehicle in the axes of autopilots."""
 
+import math
 from dataclasses import dataclass
 
 import mujoco
@@ -84,7 +85,7 @@ class TruthReader:
         numbers = row.tolist()
         velocity_b = numbers[nat.LINEAR_VELOCITY]
         velocity_w, medium_w = self._velocity_w.tolist(), numbers[nat.MEDIUM_VELOCITY]
-        through_w = [v - m for v, m in zip(velocity_w, medium_w, strict=True)]
+        east, north, up = (v - m for v, m in zip(velocity_w, medium_w, strict=True))
         return Truth(
             enu_to_ned(numbers[nat.POSITION]),
             attitude_to_ned(numbers[nat.QUATERNION]),
@@ -94,5 +95,5 @@ class TruthReader:
             flu_to_frd(numbers[nat.SPECIFIC_FORCE]),
             enu_to_ned((self._force_w + self._simulation.model.opt.gravity).tolist()),
             enu_to_ned(medium_w),
-            sum(v * v for v in through_w) ** 0.5,
+            math.sqrt(east * east + north * north + up * up),
         )

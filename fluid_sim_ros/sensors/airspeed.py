@@ -1,6 +1,7 @@
 """The airspeed sensor: a pitot tube."""
 
 import math
+from collections.abc import Sequence
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
@@ -49,10 +50,15 @@ class Airspeed(Sensor, file=AirspeedFile):
             raise ConfigError(f'{self.where}: the scene has no air')
 
     def _measure(self, values: Array) -> bool:
-        flow_b = self._velocity_b() - self._rotation_bw() @ self._state[nat.MEDIUM_VELOCITY]
-        speed = float(self.mount.to_sensor(flow_b)[0])
+        x, y, z = self._velocity_b().tolist()
+        u, v, w = self._to_body(self._state[nat.MEDIUM_VELOCITY].tolist())
+        speed = self.mount.turned((x - u, y - v, z - w))[0]
         values[0] = 0.5 * self._density * speed * abs(speed)
-        return bool(self._position_w()[2] >= self._surface)
+        return self._position_w()[2] >= self._surface
+
+    def compiled_constants(self) -> Sequence[float]:
+        """Return the height of the surface [m] and the density of the air [kg/m^3]."""
+        return self._surface, self._density
 
     def _convert(self) -> None:
         self.differential_pressure = q = float(self.values[0])

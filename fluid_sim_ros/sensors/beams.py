@@ -1,6 +1,7 @@
 """Sensors that look along rays: rangefinder and Doppler velocity log."""
 
 import math
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
@@ -37,6 +38,11 @@ class Looking(Sensor):
     carrier, config
         See ``Sensor``.
 
+    Attributes
+    ----------
+    passed
+        Whether rays pass each geom of the model.
+
     """
 
     needs_forces = True
@@ -47,7 +53,7 @@ class Looking(Sensor):
         self._base = carrier.vehicle.body_id
         model = carrier.simulation.model
         own = model.body_rootid[model.geom_bodyid] == model.body_rootid[self._base]
-        self._passed = own | translucent_geoms(model)
+        self.passed = own | translucent_geoms(model)
 
     def _distance(self, start_w: Array, direction_w: Array) -> float:
         """Return the distance [m] along a unit vector to what no ray passes, or inf."""
@@ -59,7 +65,7 @@ class Looking(Sensor):
             if distance < 0:
                 return math.inf
             gone += float(distance)
-            if not self._passed[self._geom[0]]:
+            if not self.passed[self._geom[0]]:
                 return gone
             gone += _STEP
             start = start_w + gone * direction_w
@@ -106,8 +112,14 @@ class Rangefinder(Looking, file=RangefinderFile):
         mujoco.mju_mulQuat(self.frame_quat_bs, self.frame_quat_bs.copy(), _X_TO_Z)
 
     def _measure(self, values: Array) -> bool:
-        values[0] = self._distance(self._position_w(), self._direction_b @ self._rotation_bw())
+        direction_w = self._to_world(self._direction_b.tolist())
+        values[0] = self._distance(np.array(self._position_w()), np.array(direction_w))
         return True
+
+    def compiled_constants(self) -> Sequence[float]:
+        """Return the direction of the ray, base_link axes."""
+        direction_b: list[float] = self._direction_b.tolist()
+        return direction_b
 
     def _convert(self) -> None:
         self.distance = float(self.values[0])
@@ -158,7 +170,7 @@ class Dvl(Looking, file=DvlFile):
         self._limits = config.altitude.range or [0.0, math.inf]
 
     def _measure(self, values: Array) -> bool:
-        start_w, (low, high) = self._position_w(), self._limits
+        start_w, (low, high) = np.array(self._position_w()), self._limits
         beams_w = self._beams_b @ self._rotation_bw()
         heights = [self._down * self._distance(start_w, beam) for beam in beams_w]
         locked = [height for height in heights if low <= height <= high and height < math.inf]

@@ -65,7 +65,8 @@ class Imu(Sensor, file=ImuFile):
             wx, wy, wz,
         )  # fmt: skip
         if self.mount.rotation_sb is not None:
-            values[:] = self.mount.to_sensor(values.reshape(2, 3)).ravel()
+            numbers = values.tolist()
+            values[:] = *self.mount.turned(numbers[:3]), *self.mount.turned(numbers[3:])
         return True
 
 

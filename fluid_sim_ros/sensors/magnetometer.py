@@ -1,5 +1,7 @@
 """The magnetometer, and the Earth's field at home."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from pygeomag import GeoMag
 
@@ -73,5 +75,10 @@ class Magnetometer(Sensor, file=MagnetometerFile):
         self.field_w = earth_field(carrier.simulation.scene.home)
 
     def _measure(self, values: Array) -> bool:
-        values[:] = self.mount.to_sensor(self._rotation_bw() @ self.field_w)
+        values[:] = self.mount.turned(self._to_body(self.field_w.tolist()))
         return True
+
+    def compiled_constants(self) -> Sequence[float]:
+        """Return the Earth's field [T], world axes."""
+        field_w: list[float] = self.field_w.tolist()
+        return field_w

@@ -1,5 +1,6 @@
 """Where a sensor sits: on which vehicle, and at which place and turn of its base body."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -118,6 +119,27 @@ class Mount:
             return vectors_b
         turned: Array = vectors_b @ self.rotation_sb.T
         return turned
+
+    def turned(self, vector_b: Sequence[float]) -> Sequence[float]:
+        """
+        Turn one vector into the sensor's axes, in the order of operations of the compiled twin.
+
+        Parameters
+        ----------
+        vector_b
+            Of any unit, base_link axes, three numbers.
+
+        Returns
+        -------
+        vector_s
+            The same vector, axes of the sensor.
+
+        """
+        if self.rotation_sb is None:
+            return vector_b
+        x, y, z = vector_b
+        a, b, c, d, e, f, g, h, i = self.rotation_sb.ravel().tolist()
+        return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
 
     def to_base(self, vectors_s: Array) -> Array:
         """

@@ -38,6 +38,11 @@ class Errors:
     infinite_beyond
         Values beyond the range become infinite instead of the range's end.
 
+    Attributes
+    ----------
+    axes
+        Of each number of a reading: quantum, range (two), and what is read below and above it.
+
     """
 
     def __init__(
@@ -63,7 +68,7 @@ class Errors:
         self._dither = per_axis(quanta if dither else [0.0] * len(stated))
         # plain floats: a reading has a few numbers only, for which arrays take three times as long
         limits = [c.range or (-math.inf, math.inf) for c in stated]
-        self._axes = [
+        self.axes = [
             (c.resolution, low, high, *((-math.inf, math.inf) if infinite_beyond else (low, high)))
             for (c, count), (low, high) in zip(channels, limits, strict=True)
             for _ in range(count)
@@ -71,6 +76,7 @@ class Errors:
         entropy = [seed % (1 << 64), *name.encode()]
         self._key = np.random.SeedSequence(entropy).generate_state(2, np.uint64)
         self._block = -1
+        self._drawn: Array = np.empty((0, 0))
         self._added: list[list[float]] = []
         #: Bias at the begin of each block that was drawn so far.
         self._bias = [np.zeros(self._width)]
@@ -96,7 +102,7 @@ class Errors:
         if block != self._block:
             self._draw(block)
         numbers, beyond = values.tolist(), 0
-        for i, (added, axis) in enumerate(zip(self._added[place], self._axes, strict=True)):
+        for i, (added, axis) in enumerate(zip(self._added[place], self.axes, strict=True)):
             quantum, low, high, below, above = axis
             number = numbers[i] + added
             if quantum and -math.inf < number < math.inf:
@@ -107,6 +113,25 @@ class Errors:
             numbers[i] = number
         values[:] = numbers
         return beyond
+
+    def block(self, block: int) -> Array:
+        """
+        Return what is added to the readings of a block.
+
+        Parameters
+        ----------
+        block
+            Number of the block, from 0 on.
+
+        Returns
+        -------
+        Array
+            In the units of the channels, shape (``BLOCK``, n); not changed afterwards.
+
+        """
+        if block != self._block:
+            self._draw(block)
+        return self._drawn
 
     def _draw(self, block: int) -> None:
         """Draw what is added to the readings of a block."""
@@ -123,7 +148,7 @@ class Errors:
         if self._dither.any():
             shape = (BLOCK, self._width)
             added += self._dither * self._generator(_DITHER, block).uniform(-1, 1, shape)
-        self._added = added.tolist()
+        self._drawn, self._added = added, added.tolist()
 
     def _steps(self, block: int) -> Array:
         """Return the bias after each reading of a block, from the block's begin."""

@@ -1,8 +1,11 @@
 """Barometer and water pressure sensor: the static pressure of what is around them."""
 
+from collections.abc import Sequence
+
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import (
+    TROPOPAUSE_PRESSURE,
     pressure_altitude,
     standard_pressure,
     standard_temperature,
@@ -45,6 +48,20 @@ class _Static(Sensor):
         else:
             values[0] = standard_pressure(self._home + height)
         return True
+
+    def compiled_constants(self) -> Sequence[float]:
+        """
+        Return height of the surface and altitude of home [m], weight of water, pressures.
+
+        Returns
+        -------
+        Sequence
+            [m], [m], [N/m^3]; at the surface and at the tropopause [Pa].
+
+        """
+        return (
+            self._fluids.surface, self._home, self._weight, self._at_surface, TROPOPAUSE_PRESSURE
+        )  # fmt: skip
 
 
 class Barometer(_Static, file=BarometerFile):

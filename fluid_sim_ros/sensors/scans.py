@@ -113,14 +113,14 @@ class _Scan(Looking):
 
     def _measure(self, values: Array) -> bool:
         model, data = self._simulation.model, self._simulation.observed
-        start_w = self._position_w()
+        start_w = np.array(self._position_w())
         beams_w = np.ascontiguousarray(self._beams_b @ self._rotation_bw())
         mujoco.mj_multiRay(
             model, data, start_w, beams_w.ravel(), None, 1, self._base, self._hit, self._found,
             None, len(beams_w), mujoco.mjMAXVAL,
         )  # fmt: skip
         values[:] = np.where(self._found < 0, math.inf, self._found)
-        for i in np.flatnonzero((self._hit >= 0) & self._passed[self._hit]):
+        for i in np.flatnonzero((self._hit >= 0) & self.passed[self._hit]):
             values[i] = self._distance(start_w, beams_w[i])  # go on behind it
         return True
 

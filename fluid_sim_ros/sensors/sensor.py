@@ -2,23 +2,19 @@
 
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import mujoco
 import numpy as np
 
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.schema.sensors import SensorFile
 from fluid_sim_ros.sensors.mount import Carrier, Mount
 from fluid_sim_ros.sensors.noise import Errors
+from fluid_sim_ros.sensors.pose import Posed
 from fluid_sim_ros.sensors.reading import Reading
 from fluid_sim_ros.step_clock import Beat, rounded_steps
-
-#: Linear and angular velocity lie side by side.
-_VELOCITIES = slice(nat.LINEAR_VELOCITY.start, nat.ANGULAR_VELOCITY.stop)
 
 
 @dataclass(frozen=True)
@@ -36,7 +32,7 @@ class SavedSensor:
 CLASSES: dict[str, type['Sensor']] = {}
 
 
-class Sensor(ABC):
+class Sensor(Posed, ABC):
     """
     One sensor; ``values`` and the arrays of the subclasses are overwritten by each reading.
 
@@ -73,6 +69,8 @@ class Sensor(ABC):
         The present reading, shape (n,).
     saturated
         How many values were beyond the range so far.
+    errors
+        Its errors and their random numbers.
 
     Raises
     ------
@@ -110,7 +108,7 @@ class Sensor(ABC):
         where = f"{simulation.scene.name}: vehicle '{vehicle.name}': sensors.{config.kind}"
         self.where = where
         self.config = config
-        self.mount = Mount.of_site(carrier, config.site, where)
+        super().__init__(carrier.state, Mount.of_site(carrier, config.site, where))
         self.frame = f'{vehicle.name}/{config.kind}'
         self.frame_quat_bs = self.mount.quat_bs_wxyz.copy()
         self.beat = Beat.at_rate(config.rate, simulation.timestep, f'{where}.rate')
@@ -120,11 +118,9 @@ class Sensor(ABC):
         )
         if rounded:
             simulation.warnings.add(rounded)
-        self._simulation, self._state = simulation, carrier.state
-        self._arm = self.mount.position_b.tolist()
-        self._matrix = np.empty(9)
+        self._simulation = simulation
         channels = [(getattr(config, key), count) for key, count in self.axes(config)]
-        self._errors = Errors(
+        self.errors = Errors(
             channels, float(config.rate), carrier.seed, f'{vehicle.name}/{config.kind}',
             self.dither if carrier.dither else (), self.infinite_beyond,
         )  # fmt: skip
@@ -171,7 +167,7 @@ class Sensor(ABC):
             index = self.beat.index(step)
             row = self._rows[index % len(self._rows)]
             if self._measure(row):
-                self.saturated += self._errors.apply(index, row)
+                self.saturated += self.errors.apply(index, row)
                 self.under_way.append((step + self.latency, time_ns, row))
         while self.under_way and self.under_way[0][0] <= step:
             _, self.time_ns, row = self.under_way.popleft()
@@ -179,6 +175,18 @@ class Sensor(ABC):
             self.fresh = True
         if self.fresh:
             self._convert()
+
+    def appears(self, step: int) -> bool:
+        """
+        Return whether a reading that was taken before appears, or all is to be forgotten.
+
+        Parameters
+        ----------
+        step
+            The present tick.
+
+        """
+        return step <= self.step or bool(self.under_way and self.under_way[0][0] <= step)
 
     @classmethod
     def axes(cls, config: SensorFile) -> tuple[tuple[str, int], ...]:
@@ -232,30 +240,16 @@ class Sensor(ABC):
         """
         return True
 
+    def compiled_constants(self) -> Sequence[float]:
+        """Return what its compiled twin measures with; see plugins/src/exchange/instruments.cc."""
+        return ()
+
     @abstractmethod
     def _measure(self, values: Array) -> bool:
         """Write the true values at this boundary; return whether there is anything to read."""
 
-    def _convert(self) -> None:  # noqa: B027 (most have nothing to derive)
+    def _convert(self) -> None:
         """Derive further numbers from a new reading."""
-
-    # ---- what subclasses measure with ------------------------------------------------------
-
-    def _rotation_bw(self) -> Array:
-        """Return the matrix that turns world vectors into base_link's axes, shape (3, 3)."""
-        mujoco.mju_quat2Mat(self._matrix, self._state[nat.QUATERNION])
-        return self._matrix.reshape(3, 3).T
-
-    def _position_w(self) -> Array:
-        """Return the sensor's place in the world [m], shape (3,)."""
-        place: Array = self._state[nat.POSITION] + self.mount.position_b @ self._rotation_bw()
-        return place
-
-    def _velocity_b(self) -> Array:
-        """Return the velocity of the sensor's place [m/s], base_link axes: v + w x r."""
-        vx, vy, vz, wx, wy, wz = self._state[_VELOCITIES].tolist()
-        rx, ry, rz = self._arm
-        return np.array([vx + wy * rz - wz * ry, vy + wz * rx - wx * rz, vz + wx * ry - wy * rx])
 
     # ---- save and load ---------------------------------------------------------------------
 

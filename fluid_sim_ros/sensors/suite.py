@@ -123,7 +123,7 @@ class SensorSuite:
 
         """
         for sensor in self.sensors:
-            if sensor.beat.due(tick) or sensor.under_way or tick <= sensor.step:
+            if sensor.beat.due(tick) or sensor.appears(tick):
                 sensor.update(tick, time_ns)
             else:
                 sensor.fresh = False

@@ -18,9 +18,8 @@ from fluid_sim_ros.mavlink.ardupilot.json_packets import (
     RC_CHANNELS,
     ServoPacket,
     read_servo_packet,
-    write_state,
 )
-from fluid_sim_ros.mavlink.ardupilot.json_state import StateReader
+from fluid_sim_ros.mavlink.ardupilot.json_state import ReplyWriter
 from fluid_sim_ros.mavlink.ardupilot.station import Station, second_port
 from fluid_sim_ros.mavlink.ardupilot.udp_port import Datagram, UdpPort
 from fluid_sim_ros.mavlink.battery import Battery
@@ -71,7 +70,7 @@ class ArduPilotBridge(AutopilotLink):
         super().__init__(simulation, options, surroundings, actuators, file)
         limits = simulation.vehicle(options.vehicle).thrust_range[:, 1].tolist()
         self._battery = Battery(file.battery, limits) if file.battery else None
-        self._state = StateReader(simulation, options.vehicle, self._sticks, self._battery)
+        self._state = ReplyWriter(simulation, options.vehicle, self._sticks, self._battery)
         self._frames = Frames(simulation.timestep, surroundings.log)
         port = options.port or FIRST_PORT + PORT_STEP * options.instance
         self._port = UdpPort(options.address, port, LONGEST_PACKET)
@@ -177,7 +176,7 @@ class ArduPilotBridge(AutopilotLink):
         self._sent_ns = simulation.time_ns + self._offset_ns
         self._told += 1
         time_s = self._sent_ns * 1e-9 + self._told * _AHEAD
-        self._reply = write_state(self._state.read(time_s))
+        self._reply = self._state.reply(time_s)
         self._owed = False
         self.counters.sent += 1
         self._drop_repeated()

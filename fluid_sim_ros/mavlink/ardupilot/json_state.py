@@ -1,14 +1,19 @@
 """What ArduPilot gets to know of its vehicle at the end of each frame."""
 
+import ctypes
 import math
+from collections.abc import Sequence
 
 from fluid_sim_ros.mavlink.ardupilot.json_packets import JsonState
 from fluid_sim_ros.mavlink.battery import Battery
 from fluid_sim_ros.mavlink.ned import euler
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import Truth, TruthReader
+from fluid_sim_ros.physics.environment.atmosphere import DENSITY
+from fluid_sim_ros.plugins.exchange import LONGEST_REPLY, ArduPilotState, exchange_library
 from fluid_sim_ros.schema.sensors import SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
+from fluid_sim_ros.sensors.compiled import CompiledSensor, carrier_of
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
 
@@ -73,10 +78,71 @@ class StateReader:
         return airspeed, min(max(suite.rangefinder.distance, 0.0), _OUT_OF_RANGE)
 
 
+class ReplyWriter:
+    """
+    Writes the replies in the library: the same bytes as ``write_state`` of ``StateReader.read``.
+
+    Parameters
+    ----------
+    simulation, vehicle, sticks, battery
+        See ``StateReader``.
+
+    """
+
+    def __init__(
+        self, simulation: Simulation, vehicle: str, sticks: Sticks, battery: Battery | None
+    ) -> None:
+        self._simulation, self._sticks, self._battery = simulation, sticks, battery
+        suite = _sensors(simulation, vehicle)
+        self._compiled = [
+            None if sensor is None else CompiledSensor(sensor)
+            for sensor in (suite.airspeed, suite.rangefinder)
+        ]
+        self._state = ArduPilotState(
+            carrier_of(simulation, vehicle), aerial=simulation.streams == ('wind',),
+            sea_density=DENSITY, distance=math.inf, metered=battery is not None,
+        )  # fmt: skip
+        self._state.instruments[:] = [c.address if c else None for c in self._compiled]
+        self._pulses: Sequence[int] = ()
+        self._into = ctypes.create_string_buffer(LONGEST_REPLY)
+        self._addresses = ctypes.addressof(self._state), ctypes.addressof(self._into)
+        self._write = exchange_library().ardupilot_state
+
+    def reply(self, time_s: float) -> bytes:
+        """
+        Return the reply that says the present state.
+
+        Parameters
+        ----------
+        time_s
+            Time of the state by the autopilot's clock [s].
+
+        Returns
+        -------
+        bytes
+            One line of JSON.
+
+        """
+        simulation, state, battery = self._simulation, self._state, self._battery
+        simulation.observe(forces=True, wrenches=False)
+        if (pulses := self._sticks.pulses()) is not self._pulses:
+            self._pulses = pulses
+            state.channels = len(pulses)
+            state.pulses[: len(pulses)] = pulses
+        if battery is not None:
+            state.voltage, state.current = battery.voltage, battery.current
+        (what, into), tick = self._addresses, simulation.tick
+        while (size := self._write(what, tick, time_s, into, LONGEST_REPLY)) < 0:
+            compiled = self._compiled[-1 - size]  # at every 256th reading
+            assert compiled is not None
+            compiled.draw(tick)
+        return ctypes.string_at(into, size)
+
+
 def _vane(truth: Truth) -> tuple[float, float]:
     """Return where the wind comes from, clockwise from ahead [rad], and its speed [m/s]."""
     north, east, _ = (v - a for v, a in zip(truth.velocity_ned, truth.air_ned, strict=True))
-    speed = math.hypot(north, east)
+    speed = math.sqrt(north * north + east * east)
     heading = euler(truth.attitude)[2]
     return (math.remainder(math.atan2(east, north) - heading, math.tau) if speed else 0.0), speed
 

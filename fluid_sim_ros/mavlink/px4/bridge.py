@@ -111,8 +111,9 @@ class Px4Bridge(AutopilotLink):
             self._lost(f'PX4 at {reason}')
         if not self._server.connected and not self._greet():
             return False
-        now_us = self._now_us(simulation)
-        if simulation.time_ns % _PERIOD_NS or not now_us:
+        time_ns = simulation.time_ns
+        now_us = time_ns // 1000 + self._offset_us
+        if time_ns % _PERIOD_NS or not now_us:
             return True  # PX4 takes no message of time 0
         if now_us != self._sent_us:
             if self._server.stuck and not self._silence.given_up:  # it is halted at its start

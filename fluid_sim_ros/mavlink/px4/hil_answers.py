@@ -4,17 +4,16 @@ The MAVLink 2 messages of PX4 to a simulator: outputs of the autopilot, and what
 The codec is pymavlink's ``common`` dialect; see https://mavlink.io/en/messages/common.html.
 """
 
+import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from pymavlink.dialects.v20 import common as dialect
 
-from fluid_sim_ros.mavlink.px4.wire import Frame
+from fluid_sim_ros.plugins.exchange import Px4Answer, exchange_library
 
 #: First byte of a message of MAVLink 1.
 MAVLINK1 = 0xFE
-#: The message of every exchange.
-_ANSWER = Frame(dialect.MAVLink_hil_actuator_controls_message)
 #: MAV_MODE_FLAG_SAFETY_ARMED of ``mode``, HIL_ACTUATOR_CONTROLS_FLAGS_LOCKSTEP of ``flags``.
 _ARMED, _LOCKSTEP = 128, 1
 #: Message ids.
@@ -46,6 +45,9 @@ class HilReader:
     def __init__(self) -> None:
         self._mav = dialect.MAVLink(None)
         self._mav.robust_parsing = True
+        self._answer = Px4Answer()
+        self._address = ctypes.addressof(self._answer)
+        self._read = exchange_library().px4_answer
 
     def receive(self, data: bytes) -> Received:
         """
@@ -64,10 +66,12 @@ class HilReader:
         """
         received, mav = Received(), self._mav
         # most portions are one whole answer
-        if not mav.buf and (fields := _ANSWER.read(data)) is not None:
-            time_us, flags, *controls, mode = fields
+        if not mav.buf and self._read(data, len(data), self._address):
+            answer = self._answer
             received.messages = 1
-            received.actuators.append(_actuators(time_us, controls, mode, flags))
+            received.actuators.append(
+                _actuators(answer.time_us, answer.controls[:], answer.mode, answer.flags)
+            )
             return received
         for message in mav.parse_buffer(data) or ():
             kind = message.get_msgId()

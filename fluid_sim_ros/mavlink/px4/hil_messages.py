@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pymavlink.dialects.v20 import common as dialect
 
 from fluid_sim_ros.mavlink.ned import Quaternion, Vector3
-from fluid_sim_ros.mavlink.px4.wire import Frame
+from fluid_sim_ros.mavlink.px4.wire import Frame, triangle
 
 #: Bits of HIL_SENSOR.fields_updated; PX4 takes a group only with all of its bits.
 ACCELEROMETER, GYRO, MAGNETOMETER = 0x007, 0x038, 0x1C0
@@ -24,11 +24,14 @@ _VISION, _LOCAL_NED, _BODY_FRD = 2, 1, 12
 #: A magnetic or air data value that the message has a field for, but no new reading.
 _ABSENT: Vector3 = (0.0, 0.0, 0.0)
 _GCS, _NOT_AN_AUTOPILOT = 6, 8  # MAV_TYPE_GCS, MAV_AUTOPILOT_INVALID
+#: Of HIL_GPS: a fix in three dimensions, by so many satellites.
+_FIX_3D, _SATELLITES = 3, 12
 _COURSE_UNKNOWN = 65535  # [cdeg]
-#: Upper triangle of a 6x6 covariance: places of its diagonal.
-_DIAGONAL = (0, 6, 11, 15, 18, 20)
-#: The message of every exchange.
 _SENSORS = Frame(dialect.MAVLink_hil_sensor_message)
+_GPS = Frame(dialect.MAVLink_hil_gps_message)
+_TRUTH = Frame(dialect.MAVLink_hil_state_quaternion_message)
+_ODOMETRY = Frame(dialect.MAVLink_odometry_message)
+_STICKS = Frame(dialect.MAVLink_rc_channels_message)
 
 
 @dataclass
@@ -73,6 +76,17 @@ class HilWriter:
     def __init__(self, system: int = 1, component: int = 51) -> None:
         self._mav = dialect.MAVLink(None, srcSystem=system, srcComponent=component)
 
+    @property
+    def ids(self) -> tuple[int, int]:
+        """MAVLink ids of the sender: system and component."""
+        return self._mav.srcSystem, self._mav.srcComponent
+
+    def number(self) -> int:
+        """Return the number of the next message, which is then taken."""
+        number: int = self._mav.seq
+        self._mav.seq = (number + 1) % 256
+        return number
+
     def pack(self, message: dialect.MAVLink_message) -> bytes:
         """
         Return the frame of a message of the dialect.
@@ -115,15 +129,12 @@ class HilWriter:
             fields |= BAROMETER
         if differential is not None:
             fields |= AIRSPEED
-        mav = self._mav
-        data = _SENSORS.pack(
-            mav.seq, mav.srcSystem, mav.srcComponent,
+        return _SENSORS.pack(
+            self.number(), *self.ids,
             time_us, *readings.specific_force, *readings.gyro, *field_frd,
             pressure or 0.0, differential or 0.0, readings.pressure_altitude,
             readings.temperature, fields, 0,
         )  # fmt: skip
-        mav.seq = (mav.seq + 1) % 256
-        return data
 
     def gps(
         self,
@@ -160,12 +171,11 @@ class HilWriter:
         north, east, down = (_int16(100 * v) for v in velocity_ned)
         speed = min(round(100 * math.hypot(*velocity_ned[:2])), 65534)
         course = math.degrees(math.atan2(velocity_ned[1], velocity_ned[0])) % 360
-        return self.pack(
-            dialect.MAVLink_hil_gps_message(
-                time_us, 3, round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
-                eph, epv, speed, north, east, down,
-                round(100 * course) % 36000 if speed else _COURSE_UNKNOWN, 12,
-            )
+        return _GPS.pack(
+            self.number(), *self.ids,
+            time_us, round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
+            eph, epv, speed, north, east, down,
+            round(100 * course) % 36000 if speed else _COURSE_UNKNOWN, _FIX_3D, _SATELLITES, 0, 0,
         )  # fmt: skip
 
     def truth(
@@ -210,13 +220,12 @@ class HilWriter:
         """
         latitude, longitude, altitude = geodetic
         air = min(max(round(100 * airspeed), 0), 65535)
-        return self.pack(
-            dialect.MAVLink_hil_state_quaternion_message(
-                time_us, list(attitude), *rates,
-                round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
-                *(_int16(100 * v) for v in velocity_ned), air, air,
-                *(_int16(1000 * a) for a in acceleration_ned),
-            )
+        return _TRUTH.pack(
+            self.number(), *self.ids,
+            time_us, *attitude, *rates,
+            round(latitude * 1e7), round(longitude * 1e7), round(altitude * 1e3),
+            *(_int16(100 * v) for v in velocity_ned), air, air,
+            *(_int16(1000 * a) for a in acceleration_ned),
         )  # fmt: skip
 
     def odometry(
@@ -255,12 +264,11 @@ class HilWriter:
             One MAVLink frame.
 
         """
-        return self.pack(
-            dialect.MAVLink_odometry_message(
-                time_us, _LOCAL_NED, _BODY_FRD, *position_ned, list(attitude), *velocity_frd,
-                *rates, _triangle(pose_variance), _triangle(velocity_variance),
-                0, _VISION, 100,
-            )
+        return _ODOMETRY.pack(
+            self.number(), *self.ids,
+            time_us, *position_ned, *attitude, *velocity_frd, *rates,
+            *triangle(pose_variance), *triangle(velocity_variance),
+            _LOCAL_NED, _BODY_FRD, 0, _VISION, 100,
         )  # fmt: skip
 
     def heartbeat(self) -> bytes:
@@ -285,16 +293,8 @@ class HilWriter:
 
         """
         pulses = [*channels, *[65535] * (18 - len(channels))]
-        return self.pack(dialect.MAVLink_rc_channels_message(time_ms, len(channels), *pulses, 255))
+        return _STICKS.pack(self.number(), *self.ids, time_ms, *pulses, len(channels), 255)
 
 
 def _int16(value: float) -> int:
     return min(max(round(value), -32768), 32767)
-
-
-def _triangle(variances: Sequence[float]) -> list[float]:
-    """Return the upper triangle of a diagonal 6x6 covariance, row by row."""
-    triangle = [0.0] * 21
-    for place, variance in zip(_DIAGONAL, variances, strict=True):
-        triangle[place] = variance
-    return triangle

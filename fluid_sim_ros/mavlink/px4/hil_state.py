@@ -2,14 +2,19 @@
 
 import math
 import random
+from collections.abc import Callable
 from fractions import Fraction
-from typing import TypeVar
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
-from fluid_sim_ros.mavlink.ned import enu_to_ned, flu_to_frd
+from fluid_sim_ros.mavlink.ned import Vector3, enu_to_ned
 from fluid_sim_ros.mavlink.px4.hil_aids import OpticalFlow, distance_sensor
-from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter, SensorReadings
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
+from fluid_sim_ros.mavlink.px4.hil_sensor import (
+    KINDS,
+    CompiledReadings,
+    Readings,
+)
 from fluid_sim_ros.mavlink.px4.sphere import SphereFrame
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.mavlink.vehicle_truth import TruthReader
@@ -18,23 +23,18 @@ from fluid_sim_ros.physics.environment.atmosphere import (
     standard_pressure,
     standard_temperature,
 )
-from fluid_sim_ros.schema.sensors import SensorsFile
+from fluid_sim_ros.schema.sensors import RangefinderFile, SensorsFile
 from fluid_sim_ros.sensors import SensorSuite
-from fluid_sim_ros.sensors.beams import Rangefinder
 from fluid_sim_ros.sensors.geodesy import LocalFrame
 from fluid_sim_ros.sensors.gnss import Gnss
-from fluid_sim_ros.sensors.sensor import Sensor
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
-
-Present = TypeVar('Present', bound=Sensor)
 
 #: Exchanges per second.
 RATE = 250
 #: Every so many exchanges: magnetic field (83 Hz), pressures, vision, distance and flow (50 Hz),
 #: truth and GNSS (10 Hz), radio control (10 Hz), heartbeat (1 Hz).
 _FIELD, _PRESSURE, _TRUTH, _STICKS, _HEARTBEAT = 3, 5, 25, 25, 250
-_GAUSS, _HECTOPASCAL, _CELSIUS = 1e4, 1e-2, -273.15
 #: Range of a rangefinder that states none [m].
 _FARTHEST = 100.0
 #: Of the pressure that is sent with vision [Pa], either way.
@@ -63,6 +63,8 @@ class HilState:
         Of a radio control.
     earth
         As of ``AutopilotOptions``.
+    readings
+        What makes HIL_SENSOR: ``CompiledReadings``, or ``PlainReadings`` with the same bytes.
 
     Raises
     ------
@@ -78,7 +80,9 @@ class HilState:
         file: AutopilotFile,
         sticks: Sticks,
         earth: str = 'wgs84',
+        readings: Callable[[Simulation, str, SensorsFile], Readings] = CompiledReadings,
     ) -> None:
+        self._simulation = simulation
         self._vision, self._sticks = file.vision, sticks
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home
@@ -87,16 +91,15 @@ class HilState:
         latency = Fraction(math.ceil(exact(file.gnss_delay) * RATE), RATE)
         self._moved = float(latency) - file.gnss_delay  # [s] between two exchanges
         config = _for_px4(simulation.vehicle(vehicle).sensors, file.vision, latency)
-        self._suite = suite = SensorSuite(simulation, vehicle, config)
-        self._imu = _there(suite.imu, 'imu', vehicle)
-        self._magnetometer = _there(suite.magnetometer, 'magnetometer', vehicle)
-        self._barometer, self._gnss, self._airspeed = suite.barometer, suite.gnss, suite.airspeed
-        if not file.vision:
-            _there(suite.barometer, 'barometer', vehicle)
-            _there(suite.gnss, 'gnss', vehicle)
-        self._range = suite.rangefinder
-        if file.optical_flow and self._range is None:
-            _there(None, 'rangefinder', vehicle)
+        needed = ['imu', 'magnetometer', *([] if file.vision else ['barometer', 'gnss'])]
+        _check(config, [*needed, *(['rangefinder'] if file.optical_flow else [])], vehicle)
+        slow = dict.fromkeys(KINDS)
+        quick = {kind: getattr(config, kind) for kind in KINDS}
+        self._readings = readings(
+            simulation, vehicle, SensorsFile(dither=True).model_copy(update=quick)
+        )
+        self._suite = suite = SensorSuite(simulation, vehicle, config.model_copy(update=slow))
+        self._gnss, self._range = suite.gnss, config.rangefinder
         self._flow = OpticalFlow() if file.optical_flow else None
         self._noise = random.Random(simulation.seed)
         self._count = 0
@@ -118,17 +121,22 @@ class HilState:
             MAVLink frames. HIL_SENSOR is the first: PX4's clock is its time, and stamps the rest.
 
         """
-        self._suite.update()
+        simulation = self._simulation
+        simulation.observe(forces=True, wrenches=False)
+        tick = simulation.tick
+        looked = tick % self._suite.period == 0
+        if looked:
+            self._suite.read(tick, simulation.time_ns)
         count, self._count = self._count, self._count + 1
-        readings, others = self._readings(), b''
+        pressure, others = None, b''
         if self._vision and count % _PRESSURE == 0:
             truth = self._truth.read(forces=False)
             others += writer.odometry(
                 now_us, truth.position_ned, truth.attitude, truth.velocity_frd, truth.rates,
                 _POSE_VARIANCE, _TWIST_VARIANCE,
             )  # fmt: skip
-            self._read_pressure(readings, -truth.position_ned[2])
-        if self._gnss is not None and self._gnss.fresh:
+            pressure = self._pressure_at(-truth.position_ned[2])
+        if looked and self._gnss is not None and self._gnss.fresh:
             others += self._fix(writer, now_us, self._gnss)
         if count % _TRUTH == 0:
             others += self._true_state(writer, now_us)
@@ -138,7 +146,7 @@ class HilState:
             others += writer.rc_channels(now_us // 1000, pulses)
         if count % _HEARTBEAT == 0:
             others += writer.heartbeat()
-        return writer.sensors(now_us, readings) + others
+        return self._readings.frame(writer, now_us, pressure) + others
 
     def _fix(self, writer: HilWriter, now_us: int, gnss: Gnss) -> bytes:
         """Return HIL_GPS of a fix that is as old as PX4 takes it for."""
@@ -148,43 +156,26 @@ class HilState:
         ]
         return writer.gps(now_us, *self._frame.geodetic(*place), enu_to_ned(velocity_w))
 
-    def _ground(self, writer: HilWriter, now_us: int, sensor: Rangefinder) -> bytes:
+    def _ground(self, writer: HilWriter, now_us: int, sensor: RangefinderFile) -> bytes:
         """Return DISTANCE_SENSOR and, where it is wanted, HIL_OPTICAL_FLOW, of a new reading."""
-        distance = sensor.distance
+        distance, fresh = self._readings.ground()
         if self._flow is not None and math.isfinite(distance):
             truth = self._truth.read(forces=False)
             self._flow.add(truth.rates, truth.velocity_frd, distance, 1 / RATE)
-        if not sensor.fresh:
+        if not fresh:
             return b''
-        nearest, farthest = sensor.config.distance.range or (0.0, _FARTHEST)
+        nearest, farthest = sensor.distance.range or (0.0, _FARTHEST)
         data = writer.pack(distance_sensor(now_us // 1000, distance, nearest, farthest))
         if self._flow is not None:
             data += writer.pack(self._flow.message(now_us, distance))
         return data
 
-    def _readings(self) -> SensorReadings:
-        imu, barometer, airspeed = self._imu, self._barometer, self._airspeed
-        readings = SensorReadings(
-            flu_to_frd(imu.specific_force.tolist()), flu_to_frd(imu.angular_velocity.tolist())
-        )
-        if self._magnetometer.fresh:
-            x, y, z = self._magnetometer.field.tolist()
-            readings.magnetic_field = (_GAUSS * x, -_GAUSS * y, -_GAUSS * z)
-        if barometer is not None and barometer.fresh:
-            readings.pressure = _HECTOPASCAL * barometer.pressure
-            readings.pressure_altitude = barometer.altitude
-            readings.temperature = barometer.temperature + _CELSIUS
-        if airspeed is not None and airspeed.fresh:
-            readings.differential_pressure = _HECTOPASCAL * airspeed.differential_pressure
-        return readings
-
-    def _read_pressure(self, readings: SensorReadings, height: float) -> None:
-        """Fill in the pressure that the standard atmosphere has at a height [m]."""
+    def _pressure_at(self, height: float) -> Vector3:
+        """Return what the standard atmosphere has at a height [m]: [Pa], altitude [m], [K]."""
         pressure = standard_pressure(self._altitude + height)
         pressure += self._noise.uniform(-_DITHER, _DITHER)
-        readings.pressure = _HECTOPASCAL * pressure
-        readings.pressure_altitude = pressure_altitude(pressure)
-        readings.temperature = standard_temperature(readings.pressure_altitude) + _CELSIUS
+        altitude = pressure_altitude(pressure)
+        return pressure, altitude, standard_temperature(altitude)
 
     def _true_state(self, writer: HilWriter, now_us: int) -> bytes:
         truth = self._truth.read(forces=True)
@@ -195,14 +186,14 @@ class HilState:
         )  # fmt: skip
 
 
-def _there(sensor: Present | None, kind: str, vehicle: str) -> Present:
-    """Return a sensor that PX4 cannot do without, or raise ConfigError."""
-    if sensor is None:
-        raise ConfigError(
-            f"px4: vehicle '{vehicle}' has no {kind}; add one under 'sensors' of its file in "
-            'config/vehicles'
-        )
-    return sensor
+def _check(config: SensorsFile, needed: list[str], vehicle: str) -> None:
+    """Raise ConfigError where a sensor is missing that PX4 cannot do without."""
+    for kind in needed:
+        if getattr(config, kind) is None:
+            raise ConfigError(
+                f"px4: vehicle '{vehicle}' has no {kind}; add one under 'sensors' of its file in "
+                'config/vehicles'
+            )
 
 
 def _for_px4(sensors: SensorsFile, vision: bool, gnss_latency: Fraction) -> SensorsFile:

@@ -1,11 +1,12 @@
 """
-Whole frames of MAVLink 2, for the two messages of every exchange.
+Whole frames of MAVLink 2, for the messages of every exchange; plugins/src/exchange has a twin.
 
 Layout and checksum are the dialect's own; what is left out is the message object around them,
 which takes most of the time. https://mavlink.io/en/guide/serialization.html has the frame.
 """
 
 import struct
+from collections.abc import Sequence
 from typing import Any
 
 from pymavlink.dialects.v20 import common as dialect
@@ -14,6 +15,8 @@ from pymavlink.dialects.v20 import common as dialect
 _HEAD = struct.Struct('<BBBBBBBHB')
 _CHECKSUM = struct.Struct('<H')
 _MAGIC = 0xFD
+#: Upper triangle of a 6x6 covariance: places of its diagonal.
+_DIAGONAL = (0, 6, 11, 15, 18, 20)
 
 
 class Frame:
@@ -86,3 +89,19 @@ class Frame:
 
     def _checksum(self, frame: bytes) -> int:
         return int(dialect.x25crc(frame[1:] + self._extra).crc)
+
+
+def triangle(variances: Sequence[float]) -> list[float]:
+    """
+    Return the upper triangle of a diagonal 6x6 covariance, row by row.
+
+    Parameters
+    ----------
+    variances
+        Of its diagonal, six numbers of any unit.
+
+    """
+    numbers = [0.0] * 21
+    for place, variance in zip(_DIAGONAL, variances, strict=True):
+        numbers[place] = variance
+    return numbers

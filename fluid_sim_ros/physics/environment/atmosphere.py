@@ -15,7 +15,7 @@ EARTH_RADIUS = 6_356_766.0  # nominal, of the standard [m]
 
 _EXPONENT = -GRAVITY / (GAS_CONSTANT * LAPSE)
 _AT_TROPOPAUSE = 1.0 + LAPSE * TROPOPAUSE / TEMPERATURE
-_TROPOPAUSE_PRESSURE = PRESSURE * math.pow(_AT_TROPOPAUSE, _EXPONENT)
+TROPOPAUSE_PRESSURE = PRESSURE * math.pow(_AT_TROPOPAUSE, _EXPONENT)
 
 
 def standard_temperature(altitude: float) -> float:
@@ -58,7 +58,7 @@ def standard_pressure(altitude: float) -> float:
     if height <= TROPOPAUSE:
         return PRESSURE * math.pow(1.0 + LAPSE * height / TEMPERATURE, _EXPONENT)
     scale = GAS_CONSTANT * TEMPERATURE * _AT_TROPOPAUSE / GRAVITY
-    return _TROPOPAUSE_PRESSURE * math.exp((TROPOPAUSE - height) / scale)
+    return TROPOPAUSE_PRESSURE * math.exp((TROPOPAUSE - height) / scale)
 
 
 def pressure_altitude(pressure: float) -> float:

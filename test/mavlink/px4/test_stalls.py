@@ -160,7 +160,7 @@ def test_a_fix_is_as_old_as_px4_takes_it_for():
     """EKF2_GPS_DELAY is 10 ms; at 8 m/s each 2 ms more are 16 mm."""
     with BridgedFlight('x500_ground', 'px4').running() as flight:
         px4, places = Px4(flight.port, silent=0), {}
-        flight.bridge._state._gnss._errors.apply = lambda index, row: 0  # without noise
+        flight.bridge._state._gnss.errors.apply = lambda index, row: 0  # without noise
         for _ in range(500):
             fields = px4.sensors()
             data = flight.simulation.data  # which stands still until it is answered

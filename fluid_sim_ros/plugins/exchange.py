@@ -1,0 +1,137 @@
+"""ctypes binding of what an exchange with an autopilot repeats (plugins/src/exchange/)."""
+
+import ctypes
+from collections.abc import Callable
+from functools import cache
+from typing import ClassVar
+
+from fluid_sim_ros.errors import PluginError
+from fluid_sim_ros.plugins import load_plugins, plugin_library
+
+#: Numbers of the widest reading, constants of an instrument, and channels of a radio control.
+WIDEST, CONSTANTS, CHANNELS = 6, 5, 18
+#: Whole frames of MAVLink are not longer [bytes]; nor are replies to ArduPilot.
+LONGEST_FRAME, LONGEST_REPLY = 280, 4096
+#: Kinds of curves, in the order of ``CurveKind`` in exchange/outputs.cc.
+CURVES = ('thrust', 'rotor_speed', 't200')
+
+_double, _integer, _pointer = ctypes.c_double, ctypes.c_int64, ctypes.c_void_p
+
+
+class Carrier(ctypes.Structure):
+    """What instruments sit on: addresses of a row, of the model and of its data; base body."""
+
+    _fields_: ClassVar = [
+        ('row', _pointer), ('model', _pointer), ('observed', _pointer), ('base', _integer),
+    ]  # fmt: skip
+
+
+class Axis(ctypes.Structure):
+    """Rounding and range of a number of a reading."""
+
+    _fields_: ClassVar = [(name, _double) for name in ('quantum', 'low', 'high', 'below', 'above')]
+
+
+class Instrument(ctypes.Structure):
+    """A sensor; the fields are told of in exchange/instruments.h."""
+
+    _fields_: ClassVar = [
+        *((name, _integer) for name in (
+            'kind', 'period', 'width', 'tick', 'fresh', 'beyond', 'block',
+        )),
+        ('added', _pointer), ('axes', Axis * WIDEST), ('position_b', _double * 3),
+        ('rotation_sb', _double * 9), ('turned', _integer), ('constants', _double * CONSTANTS),
+        ('values', _double * WIDEST), ('passed', _pointer),
+    ]  # fmt: skip
+
+
+class Px4Sensors(ctypes.Structure):
+    """What HIL_SENSOR is made from."""
+
+    _fields_: ClassVar = [
+        ('carrier', Carrier), ('instruments', _pointer * 4), ('given', _integer),
+        ('pressure', _double * 3),
+    ]  # fmt: skip
+
+
+class Px4Answer(ctypes.Structure):
+    """What one HIL_ACTUATOR_CONTROLS says."""
+
+    _fields_: ClassVar = [
+        ('time_us', ctypes.c_uint64), ('flags', ctypes.c_uint64), ('controls', _double * 16),
+        ('mode', _integer),
+    ]  # fmt: skip
+
+
+class ArduPilotState(ctypes.Structure):
+    """What a reply to ArduPilot is made from."""
+
+    _fields_: ClassVar = [
+        ('carrier', Carrier), ('instruments', _pointer * 2), ('aerial', _integer),
+        *((name, _double) for name in ('sea_density', 'indicated', 'distance')),
+        ('channels', _integer), ('pulses', _integer * CHANNELS), ('metered', _integer),
+        ('voltage', _double), ('current', _double),
+    ]  # fmt: skip
+
+
+class OutputCurve(ctypes.Structure):
+    """How an output becomes a command; the fields are told of in exchange/outputs.cc."""
+
+    _fields_: ClassVar = [
+        *((name, _integer) for name in ('place', 'kind', 'reversed', 'silent')),
+        *((name, _double) for name in ('rest', 'ahead', 'back', 'low', 'high')),
+        ('pulses', _pointer), ('thrusts', _pointer), ('points', _integer),
+    ]  # fmt: skip
+
+
+class ExchangeLibrary:
+    """
+    The functions of exchange/ with argument types set; each tells of itself at its definition.
+
+    Parameters
+    ----------
+    library
+        The loaded plugin library.
+
+    """
+
+    def __init__(self, library: ctypes.CDLL) -> None:
+        number = ctypes.c_int
+        self.look: Callable[[int, int, int], int] = library.fsr_look
+        library.fsr_look.argtypes = [_pointer, _pointer, _integer]
+        self.px4_sensors: Callable[..., int] = library.fsr_px4_sensors
+        library.fsr_px4_sensors.argtypes = [
+            _pointer, _integer, ctypes.c_uint64, number, number, number, _pointer,
+        ]  # fmt: skip
+        self.px4_answer: Callable[[bytes, int, int], int] = library.fsr_px4_answer
+        library.fsr_px4_answer.argtypes = [ctypes.c_char_p, _integer, _pointer]
+        self.ardupilot_state: Callable[..., int] = library.fsr_ardupilot_state
+        library.fsr_ardupilot_state.argtypes = [_pointer, _integer, _double, _pointer, _integer]
+        self.outputs: Callable[[int, int, int, int], None] = library.fsr_outputs
+        library.fsr_outputs.argtypes = [_pointer, number, _pointer, _pointer]
+        library.fsr_outputs.restype = None
+        self.command: Callable[[int, int, int, int | None, int, int], int] = library.fsr_command
+        library.fsr_command.argtypes = [_pointer, number, *[_pointer] * 4]
+
+
+@cache
+def exchange_library() -> ExchangeLibrary:
+    """
+    Return the functions; the library is loaded once.
+
+    Raises
+    ------
+    PluginError
+        If the library is missing, or does not fit MuJoCo or this module.
+
+    """
+    load_plugins()
+    path = plugin_library()
+    try:
+        # without the interpreter lock being handed over: each takes a few microseconds
+        return ExchangeLibrary(ctypes.PyDLL(str(path)))
+    except AttributeError as error:
+        raise PluginError(
+            f'{path.name} and exchange.py are of different versions; '
+            f'reinstall fluid_sim_ros ({error})'
+        ) from error

@@ -1,0 +1,75 @@
+// From an autopilot's outputs to commands, as mavlink/actuator_map.py turns them.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "api/api.h"
+
+namespace fluid_sim {
+
+enum CurveKind : int64_t { kShare, kRotorSpeed, kT200 };
+
+struct OutputCurve {
+  int64_t place;                   // of the output, from 0
+  int64_t kind;                    // CurveKind
+  int64_t reversed, silent;        // acts backwards; an output of 0 is off
+  double rest, ahead, back;        // value at rest, shares of full command per value
+  double low, high;                // limits of the command
+  const double *pulses, *thrusts;  // table of a T200: [us], [N]
+  int64_t points;                  // of the table
+};
+
+namespace {
+
+// y at x between points; the first and the last y beyond them.
+double Interpolate(double x, const double* xs, const double* ys, int64_t n) {
+  const int64_t i = std::upper_bound(xs, xs + n, x) - xs;
+  if (i == 0) return ys[0];
+  if (i == n) return ys[n - 1];
+  return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
+}
+
+double Command(const OutputCurve& c, double value) {
+  double share = 0.0;  // also where the value is no number
+  if (c.rest < value && value < HUGE_VAL) {
+    share = std::min((value - c.rest) * c.ahead, 1.0);
+  } else if (-HUGE_VAL < value && value < c.rest && !(c.silent && value == 0)) {
+    share = std::max((value - c.rest) * c.back, -1.0);
+  }
+  if (c.reversed) share = -share;
+  if (c.kind == kT200) {
+    const double thrust = Interpolate(1500.0 + 400.0 * share, c.pulses, c.thrusts, c.points);
+    return std::min(std::max(thrust, c.low), c.high);
+  }
+  if (c.kind == kRotorSpeed) return share * share * (share >= 0 ? c.high : c.low);
+  return share * (share >= 0 ? c.high : -c.low);
+}
+
+}  // namespace
+}  // namespace fluid_sim
+
+using namespace fluid_sim;
+
+// commands[i] of n curves from the outputs' values.
+FSR_API void fsr_outputs(const OutputCurve* curves, int n, const double* outputs,
+                         double* commands) {
+  for (int i = 0; i < n; ++i) commands[i] = Command(curves[i], outputs[curves[i].place]);
+}
+
+// Check n commands, saturate them by limits (n low, then n high), divide by `scale` unless null,
+// and write them to control[ids[i]]. Returns how many were beyond the limits, or -1 where one is
+// not finite; then nothing is written.
+FSR_API int fsr_command(const double* commands, int n, const double* limits, const double* scale,
+                        const int64_t* ids, double* control) {
+  for (int i = 0; i < n; ++i) {
+    if (!std::isfinite(commands[i])) return -1;
+  }
+  int beyond = 0;
+  for (int i = 0; i < n; ++i) {
+    const double command = std::min(std::max(commands[i], limits[i]), limits[n + i]);
+    beyond += command != commands[i];
+    control[ids[i]] = scale ? command / scale[i] : command;
+  }
+  return beyond;
+}
