@@ -8,6 +8,7 @@
 #include "assembly/instances.h"
 #include "body/body_checks.h"
 #include "body/body_forces.h"
+#include "body/factor.h"
 #include "body/inertia.h"
 #include "body/stock_terms.h"
 #include "shared/config.h"
@@ -58,7 +59,9 @@ bool AddsInertia(const BodyFluid& body, bool secant) {
 void ApplyForces(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
                  const BodyForces& forces) {
   mjtNum wrench[6] = {0, 0, 0, 0, 0, 0};
-  for (const auto& term : forces.term) mju_addTo(wrench, term, 6);
+  for (const auto& term : forces.term) {
+    for (int i = 0; i < 6; ++i) wrench[i] += term[i];
+  }
   ApplyWrench(m, d, body, motion, wrench);
 }
 
@@ -103,6 +106,8 @@ void Evaluate(Assembly& assembly, const mjModel* m, mjData* d) {
     chain |= adds && body.free_dof < 0;
   }
   if (chain) mj_makeM(m, d);  // a repeated evaluation must not add A twice
+  // the blocks of other trees are factored already
+  bool factor_all = chain || (m->opt.enableflags & mjENBL_SLEEP);
   for (size_t i = 0; i < assembly.bodies.size(); ++i) {
     const BodyFluid& body = assembly.bodies[i];
     if (IsAsleep(m, d, body.id)) continue;
@@ -112,16 +117,17 @@ void Evaluate(Assembly& assembly, const mjModel* m, mjData* d) {
     Note(forces, m->opt.timestep, &assembly.limits[i]);
     ApplyForces(m, d, body, motion, forces);
     if (!AddsInertia(body, secant)) continue;
-    if (secant && body.implicit) mju_addToScl(forces.inertia, forces.secant, m->opt.timestep, 36);
+    if (secant && body.implicit) AddScaled36(forces.inertia, forces.secant, m->opt.timestep);
     if (body.free_dof >= 0) {
       WriteFreeInertia(m, d, body, motion, forces.inertia);
+      factor_all = factor_all || !FactorFreeTree(m, d, body.free_dof);
     } else {
       AddChainInertia(m, d, body, motion, forces.inertia);
     }
   }
   for (const Foil& foil : assembly.foils) ApplyFoil(m, d, assembly.medium, foil);
   if (assembly.medium.corrects_stock) CorrectStockForces(m, d, assembly.medium);
-  if (any) mj_factorM(m, d);
+  if (any && factor_all) mj_factorM(m, d);
 }
 
 Assembly* Stored(const mjData* d, int instance) {

@@ -44,8 +44,10 @@ void AddAddedMass(const mjModel* m, const BodyFluid& body, const Flow& flow, con
   }
   MultiplyAddedMass(push, body, rate);
   MultiplyAddedMass(momentum, body, nu);
-  mju_addToScl(out->term[kAddedMass], push, scale, 6);
-  mju_scl(momentum, momentum, scale, 6);
+  for (int i = 0; i < 6; ++i) {
+    out->term[kAddedMass][i] += push[i] * scale;
+    momentum[i] *= scale;
+  }
   AddAddedMassMatrix(out->inertia, body, scale);
   out->fluid_energy += 0.5 * mju_dot(momentum, nu, 6);
   if (body.has_builtin && (m->opt.density > 0 || m->opt.viscosity > 0)) {
@@ -240,10 +242,14 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
   for (int i = 0; i < count; ++i) {
     const Flow& flow = flows[i];
     mjtNum nu[6], flow_b[3], flow_accel_b[3], spin_b[3];
-    RotateBack(flow_b, motion.rotation, flow.velocity);
-    RotateBack(flow_accel_b, motion.rotation, flow.acceleration);
-    mju_copy(nu, motion.velocity, 6);
-    SubtractFrom3(nu, flow_b);
+    std::copy(motion.velocity, motion.velocity + 6, nu);
+    if (flow.at_rest) {
+      mju_zero3(flow_accel_b);
+    } else {
+      RotateBack(flow_b, motion.rotation, flow.velocity);
+      RotateBack(flow_accel_b, motion.rotation, flow.acceleration);
+      SubtractFrom3(nu, flow_b);
+    }
     if (body.added_mass) {
       AddAddedMass(m, body, flow, motion, nu, flow_accel_b, lower_density, out);
       if (slamming) AddSlamming(body, flow, nu, growth[i], secant, out);
@@ -252,8 +258,10 @@ void EvaluateBody(const mjModel* m, const mjData* d, const Medium& medium, const
     }
     if (body.buoyant) AddBuoyancy(m, body, flow, immersion, motion, flow_accel_b, out);
     // a rotational gust is felt by drag and damping; the added mass is that of a uniform flow
-    RotateBack(spin_b, motion.rotation, flow.spin);
-    SubtractFrom3(nu + 3, spin_b);
+    if (!flow.at_rest) {
+      RotateBack(spin_b, motion.rotation, flow.spin);
+      SubtractFrom3(nu + 3, spin_b);
+    }
     if (body.damping.any) AddVehicleDamping(m, medium, body, flow, nu, secant, out);
     if (body.drag == Drag::kInertiaBox) AddInertiaBoxForces(m, body, flow, nu, secant, out);
     if (body.drag != Drag::kEllipsoid) continue;

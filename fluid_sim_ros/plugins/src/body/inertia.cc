@@ -75,36 +75,40 @@ void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motio
 
 void WriteFreeInertia(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
                       const mjtNum g[36]) {
-  mjtNum total[36], shifted[36];
+  mjtNum shifted[36];
   const mjtNum to_origin[3] = {-body.point[0], -body.point[1], -body.point[2]};
-  mju_copy(total, RigidMatrix(m, body), 36);
-  ShiftMatrix6(shifted, g, to_origin);
-  AddScaled36(total, shifted, 1);
+  const mjtNum *rigid = RigidMatrix(m, body), *added = g;
+  if (!IsZero3(to_origin)) {
+    ShiftMatrix6(shifted, g, to_origin);
+    added = shifted;
+  }
+  const auto total = [rigid, added](int i, int j) { return rigid[6 * i + j] + added[6 * i + j]; };
   // velocities of the free joint: linear in world axes, angular in body axes
-  mjtNum linear[9], angular_linear[9] = {0}, half[9], block[9];
-  for (int i = 0; i < 9; ++i) block[i] = total[6 * (i / 3) + i % 3];
-  Multiply3(half, motion.rotation, block);
+  const mjtNum* r = motion.rotation;
+  const int* address = m->M_rowadr + body.free_dof;
+  mjtNum* rows[6];
+  for (int i = 0; i < 6; ++i) rows[i] = d->M + address[i];
+  mjtNum half[9], block[9];
+  for (int i = 0; i < 9; ++i) block[i] = total(i / 3, i % 3);
+  if (IsDiagonal3(block)) {
+    for (int i = 0; i < 9; ++i) half[i] = r[i] * block[4 * (i % 3)];
+  } else {
+    Multiply3(half, r, block);
+  }
   for (int i = 0; i < 3; ++i) {  // the lower triangle of half R'
-    for (int j = 0; j <= i; ++j) linear[3 * i + j] = Dot3(half + 3 * i, motion.rotation + 3 * j);
+    for (int j = 0; j <= i; ++j) rows[i][j] = Dot3(half + 3 * i, r + 3 * j);
   }
-  bool couples = false;
-  for (int i = 0; i < 9; ++i) {
-    block[i] = total[6 * (3 + i / 3) + i % 3];
-    couples |= block[i] != 0;
+  for (int i = 0; i < 9; ++i) block[i] = total(3 + i / 3, i % 3);
+  mjtNum angular_linear[9] = {0};
+  if (!IsZero3(block) || !IsZero3(block + 3) || !IsZero3(block + 6)) {
+    MultiplyTransposed3(angular_linear, block, r);
   }
-  if (couples) MultiplyTransposed3(angular_linear, block, motion.rotation);
-  for (int i = 0; i < 6; ++i) {
-    const int dof = body.free_dof + i;
-    mjtNum* row = d->M + m->M_rowadr[dof];
-    for (int j = 0; j <= i; ++j) {
-      if (i < 3) {
-        row[j] = linear[3 * i + j];
-      } else {
-        row[j] = j < 3 ? angular_linear[3 * (i - 3) + j] : total[6 * i + j];
-      }
-    }
-    row[i] += m->dof_armature[dof];
+  for (int i = 0; i < 3; ++i) {
+    Copy3(rows[3 + i], angular_linear + 3 * i);
+    for (int j = 0; j <= i; ++j) rows[3 + i][3 + j] = total(3 + i, 3 + j);
   }
+  const mjtNum* armature = m->dof_armature + body.free_dof;
+  for (int i = 0; i < 6; ++i) rows[i][i] += armature[i];
 }
 
 void AddChainInertia(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,

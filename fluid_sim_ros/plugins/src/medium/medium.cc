@@ -53,7 +53,6 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
   const mjtNum* state = d->plugin_state + m->plugin_stateadr[medium.instance];
   const bool on = state[kOn] > 0;
   FlowSample flow;
-  if (medium.still) return flow;
   if (lower) {
     AddStream(medium.current, CurrentDrive(medium, state), d->time, point_w[2], &flow);
     if (on) AddGrid(medium.current_grid, m, d->time, point_w, &flow);
@@ -78,15 +77,22 @@ FlowSample SampleAt(const Medium& medium, const mjModel* m, const mjData* d, boo
   return flow;
 }
 
+// Nothing moves: no weather, and no mean now or before.
+bool AtRest(const Medium& medium, const mjtNum* state) {
+  if (medium.still) return true;
+  const mjtNum *current = state + kCurrentState, *wind = state + kWindState;
+  return medium.plain && IsZero3(current + kTarget) && IsZero3(current + kStart) &&
+         IsZero3(wind + kTarget) && IsZero3(wind + kStart);
+}
+
 Flow FluidAt(const Medium& medium, const mjModel* m, const mjData* d, bool lower, mjtNum weight,
              int body, const mjtNum point_w[3]) {
   const int layer = lower ? 0 : 1;
+  const mjtNum density = medium.density[layer], viscosity = medium.viscosity[layer];
+  Flow out{lower, weight, density, viscosity, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  out.at_rest = AtRest(medium, d->plugin_state + m->plugin_stateadr[medium.instance]);
+  if (out.at_rest) return out;
   const FlowSample sample = SampleAt(medium, m, d, lower, body, point_w);
-  Flow out;
-  out.lower = lower;
-  out.weight = weight;
-  out.density = medium.density[layer];
-  out.viscosity = medium.viscosity[layer];
   Copy3(out.velocity, sample.velocity);
   MaterialDerivative(sample, out.acceleration);
   Copy3(out.spin, sample.spin);
@@ -120,6 +126,7 @@ int FlowsAt(const Medium& medium, const mjModel* m, const mjData* d, int body,
   if (!medium.in_charge()) {
     out[0] = {true, 1, m->opt.density, m->opt.viscosity, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     Copy3(out[0].velocity, m->opt.wind);
+    out[0].at_rest = IsZero3(m->opt.wind);
     return 1;
   }
   if (!medium.has_surface) {

@@ -31,6 +31,7 @@ struct Flow {
   mjtNum velocity[3];      // undisturbed, world [m/s]
   mjtNum acceleration[3];  // Du/Dt = du/dt + (u.grad)u, world [m/s^2]
   mjtNum spin[3];          // rotational gust, world [rad/s]
+  bool at_rest = false;    // for certain: velocity, acceleration and spin are zero
 };
 
 // Where plugin_state holds what: the means, whether signals and noise act (1 or 0), the seed; then
@@ -63,6 +64,7 @@ struct Medium {
   int current_noise = 0, wind_noise = 0, turbulence_state = 0;
   int turbulence_size = 0;  // per vehicle
   Waves waves;
+  bool plain = false;  // no weather but the mean of current and wind
   bool still = false;  // held without motion and waves, for a look at the integrator alone
 
   bool in_charge() const { return instance >= 0 && !equal; }

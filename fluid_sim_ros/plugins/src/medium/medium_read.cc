@@ -144,6 +144,9 @@ bool ReadMedium(const mjModel* m, Medium* medium) {
     if (medium->current.profile.from_ground() && !config.Has("current_datum")) {
       return config.Fail("current_profile counts from the bed; give current_datum [m]");
     }
+    medium->plain = medium->current.mean_only() && medium->wind.mean_only() &&
+                    !medium->current_grid.any() && !medium->wind_grid.any() &&
+                    !medium->waves.any() && !medium->turbulence.kind;
     if (StockFluidActs(m)) {
       if (medium->has_surface || medium->density[0] != m->opt.density ||
           medium->viscosity[0] != m->opt.viscosity) {

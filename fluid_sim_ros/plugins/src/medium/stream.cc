@@ -11,8 +11,6 @@ namespace {
 
 constexpr int kAxes = 3;
 
-bool IsZero3(const mjtNum x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
-
 // sigma^2 exp(-|t|/T) per axis: x' = -x/T + sqrt(2/T) n.
 bool ReadGaussMarkov(const Config& config, const std::string& name, mjtNum timestep,
                      ColouredNoise* noise) {

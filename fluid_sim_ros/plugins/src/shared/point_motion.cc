@@ -13,17 +13,6 @@ int LastDof(const mjModel* m, int body) {
 
 }  // namespace
 
-void PointVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
-                   mjtNum velocity_w[3], mjtNum omega_w[3]) {
-  // cvel is about the tree's centre of mass, in world axes, angular part first
-  const mjtNum* spatial = d->cvel + 6 * body;
-  mjtNum arm[3];
-  Subtract3(arm, point_w, d->subtree_com + 3 * m->body_rootid[body]);
-  Copy3(omega_w, spatial);
-  Copy3(velocity_w, spatial + 3);
-  AddCross(velocity_w, omega_w, arm);
-}
-
 void AddGeneralizedForce(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
                          const mjtNum force_w[3], const mjtNum torque_w[3], mjtNum* target) {
   mjtNum arm[3], torque[3];
@@ -38,22 +27,33 @@ void AddGeneralizedForce(const mjModel* m, const mjData* d, int body, const mjtN
 
 void AddPassiveForce(const mjModel* m, mjData* d, int body, const mjtNum point_w[3],
                      const PassiveWrench& wrench) {
-  mjtNum arm[3], torque[3], all[3];
+  mjtNum arm[3], swing[3], torque[3], all[3];
   Subtract3(arm, point_w, d->subtree_com + 3 * m->body_rootid[body]);
-  Copy3(torque, wrench.torque_w);
-  Add3(all, wrench.torque_w, wrench.other_torque_w);
-  AddCross(torque, arm, wrench.force_w);
-  AddCross(all, arm, wrench.force_w);
-  for (int dof = LastDof(m, body); dof >= 0; dof = m->dof_parentid[dof]) {
+  Cross3(swing, arm, wrench.force_w);
+  Add3(torque, wrench.torque_w, swing);
+  const bool one = IsZero3(wrench.other_torque_w);
+  if (!one) {
+    Add3(all, wrench.torque_w, wrench.other_torque_w);
+    AddTo3(all, swing);
+  }
+  const auto add = [d, &wrench, &torque, &all, one](int dof) {
     const mjtNum* axis = d->cdof + 6 * dof;
     const mjtNum linear = Dot3(axis + 3, wrench.force_w);
-    d->qfrc_fluid[dof] += Dot3(axis, torque) + linear;
-    d->qfrc_passive[dof] += Dot3(axis, all) + linear;
+    const mjtNum fluid = Dot3(axis, torque) + linear;
+    d->qfrc_fluid[dof] += fluid;
+    d->qfrc_passive[dof] += one ? fluid : Dot3(axis, all) + linear;
+  };
+  int dof = LastDof(m, body);
+  if (dof < 0 || m->jnt_type[m->dof_jntid[dof]] != mjJNT_FREE) {
+    for (; dof >= 0; dof = m->dof_parentid[dof]) add(dof);
+    return;
   }
-}
-
-bool IsAsleep(const mjModel* m, const mjData* d, int body) {
-  return (m->opt.enableflags & mjENBL_SLEEP) && !d->tree_awake[m->body_treeid[body]];
+  // a free joint: translation along the axes of the world, of which the torque has no share
+  for (int i = 0; i < 3; ++i) {
+    d->qfrc_fluid[dof - 5 + i] += wrench.force_w[i];
+    d->qfrc_passive[dof - 5 + i] += wrench.force_w[i];
+  }
+  for (int i = dof - 2; i <= dof; ++i) add(i);
 }
 
 }  // namespace fluid_sim

@@ -5,11 +5,21 @@
 
 #include <mujoco/mujoco.h>
 
+#include "shared/spatial.h"
+
 namespace fluid_sim {
 
 // Velocity of the body point at `point_w` [m/s] and of the body's rotation [rad/s].
-void PointVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
-                   mjtNum velocity_w[3], mjtNum omega_w[3]);
+inline void PointVelocity(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
+                          mjtNum velocity_w[3], mjtNum omega_w[3]) {
+  // cvel is about the tree's centre of mass, in world axes, angular part first
+  const mjtNum* spatial = d->cvel + 6 * body;
+  mjtNum arm[3];
+  Subtract3(arm, point_w, d->subtree_com + 3 * m->body_rootid[body]);
+  Copy3(omega_w, spatial);
+  Copy3(velocity_w, spatial + 3);
+  AddCross(velocity_w, omega_w, arm);
+}
 
 // target += J'(force, torque) of a wrench at `point_w`; no stack memory.
 void AddGeneralizedForce(const mjModel* m, const mjData* d, int body, const mjtNum point_w[3],
@@ -26,7 +36,9 @@ void AddPassiveForce(const mjModel* m, mjData* d, int body, const mjtNum point_w
                      const PassiveWrench& wrench);
 
 // The tree of the body sleeps: its passive forces are not wanted.
-bool IsAsleep(const mjModel* m, const mjData* d, int body);
+inline bool IsAsleep(const mjModel* m, const mjData* d, int body) {
+  return (m->opt.enableflags & mjENBL_SLEEP) && !d->tree_awake[m->body_treeid[body]];
+}
 
 }  // namespace fluid_sim
 

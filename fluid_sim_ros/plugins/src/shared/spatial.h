@@ -16,6 +16,8 @@ inline void Copy3(mjtNum out[3], const mjtNum x[3]) {
   for (int i = 0; i < 3; ++i) out[i] = x[i];
 }
 
+inline bool IsZero3(const mjtNum x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
+
 // out = a + b, out = a - b, out = s x
 inline void Add3(mjtNum out[3], const mjtNum a[3], const mjtNum b[3]) {
   for (int i = 0; i < 3; ++i) out[i] = a[i] + b[i];
@@ -101,6 +103,10 @@ inline void MultiplyMatrix6(mjtNum out[6], const mjtNum a[36], const mjtNum x[6]
 }
 
 // Nothing beside the diagonal.
+inline bool IsDiagonal3(const mjtNum a[9]) {
+  return a[1] == 0 && a[2] == 0 && a[3] == 0 && a[5] == 0 && a[6] == 0 && a[7] == 0;
+}
+
 inline bool IsDiagonal6(const mjtNum a[36]) {
   for (int i = 0; i < 36; ++i) {
     if (i % 7 != 0 && a[i] != 0) return false;

@@ -1,6 +1,7 @@
 // From the command to the speed of a rotor, and what it does at rest at that speed.
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 #include "thruster/thruster.h"
@@ -21,8 +22,15 @@ mjtNum SpeedForPulse(const Thruster& t, mjtNum pulse) {
 }
 
 // By the bits: a zero of another sign is another number.
+bool SameBits(const mjtNum a, const mjtNum b) {
+  std::uint64_t x, y;
+  std::memcpy(&x, &a, sizeof(a));
+  std::memcpy(&y, &b, sizeof(b));
+  return x == y;
+}
+
 bool SameBits3(const mjtNum a[3], const mjtNum b[3]) {
-  return std::memcmp(a, b, 3 * sizeof(mjtNum)) == 0;
+  return SameBits(a[0], b[0]) && SameBits(a[1], b[1]) && SameBits(a[2], b[2]);
 }
 
 }  // namespace
@@ -57,7 +65,7 @@ const RotorState& PresentState(const mjModel* m, const mjData* d, const Thruster
   KeptState& kept = t.kept;
   RotorState& state = kept.state;
   if (kept.any && SameBits3(asked, kept.asked)) return state;
-  if (!kept.any || std::memcmp(asked, kept.asked, sizeof(mjtNum)) != 0) {
+  if (!kept.any || !SameBits(asked[0], kept.asked[0])) {
     state.saturated = false;
     state.target = CommandedSpeed(t, command, &state.saturated);
   }

@@ -83,6 +83,12 @@ void AddDrag(const Thruster& t, const mjtNum axis_w[3], const mjtNum v[3], mjtNu
   }
 }
 
+// The rotor's angular momentum J s omega turns with the body.
+void SetGyro(const Thruster& t, const mjtNum axis_w[3], const mjtNum spin_w[3], RotorLoad* load) {
+  Cross3(load->gyro_w, axis_w, spin_w);
+  Scale3(load->gyro_w, load->gyro_w, t.inertia * t.spin * load->omega);
+}
+
 Thruster* Stored(const mjData* d, int instance) {
   return reinterpret_cast<Thruster*>(d->plugin_data[instance]);
 }
@@ -113,13 +119,38 @@ void ApplyActuators(const mjModel* m, mjData* d, const Thruster& t) {
   mjtNum* torque = t.torque >= 0 ? d->actuator_force + m->actuator_outadr[t.torque] : &none;
   *thrust = *torque = 0;
   if (IsOff(m, t.thrust)) return;
+  if (!t.thrust_needs_flow() && t.ground_effect == 0) {  // command and lag say it all
+    bool saturated = false;
+    const RotorState& state = PresentState(m, d, t, ReadCommand(m, d, t.thrust, &saturated));
+    *thrust = state.thrust;
+    *torque = -t.spin * (state.torque + t.inertia * state.rate);
+    return;
+  }
   const RotorLoad load = EvaluateThruster(m, d, t, Loads::kActuators);
   *thrust = load.thrust;
   *torque = -t.spin * (load.torque + t.inertia * load.rate);
 }
 
+// What EvaluateThruster says of the passive load, to the bit, where the wind of the options is all
+// that flows.
+void ApplyPassiveInWind(const mjModel* m, mjData* d, const Thruster& t) {
+  RotorLoad load;
+  load.omega = PresentState(m, d, t, ReadCommand(m, d, t.thrust, &load.saturated)).omega;
+  const mjtNum* site = d->site_xpos + 3 * t.site;
+  mjtNum axis_w[3], v[3], spin_w[3];
+  Rotate(axis_w, d->site_xmat + 9 * t.site, t.axis);
+  PointVelocity(m, d, t.body, site, v, spin_w);
+  if (t.inertia > 0) SetGyro(t, axis_w, spin_w, &load);
+  SubtractFrom3(v, m->opt.wind);
+  AddDrag(t, axis_w, v, Dot3(v, axis_w), 1, &load);
+  AddPassiveForce(m, d, t.body, site, {load.drag_w, load.moment_w, load.gyro_w});
+}
+
 void ApplyPassive(const mjModel* m, mjData* d, const Thruster& t) {
   if (!t.passive() || IsOff(m, t.thrust) || IsAsleep(m, d, t.body)) return;
+  if (!t.medium.in_charge() && t.works == Works::kConstant && t.has_drag()) {
+    return ApplyPassiveInWind(m, d, t);
+  }
   const mjtNum* site = d->site_xpos + 3 * t.site;
   const RotorLoad load = EvaluateThruster(m, d, t, Loads::kPassive);
   const PassiveWrench wrench{load.drag_w, load.moment_w, load.gyro_w};
@@ -169,10 +200,7 @@ RotorLoad EvaluateThruster(const mjModel* m, const mjData* d, const Thruster& t,
   if (needs_flow || turns) {
     PointVelocity(m, d, t.body, d->site_xpos + 3 * t.site, velocity, spin_w);
   }
-  if (turns) {  // the rotor's angular momentum J s omega turns with the body
-    Cross3(out.gyro_w, axis_w, spin_w);
-    Scale3(out.gyro_w, out.gyro_w, t.inertia * t.spin * out.omega);
-  }
+  if (turns) SetGyro(t, axis_w, spin_w, &out);
   if (!needs_flow) {
     out.thrust = ground * at_rest;
     out.torque = torque;
