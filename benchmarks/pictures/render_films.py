@@ -5,6 +5,7 @@ import os
 os.environ.setdefault('MUJOCO_GL', 'egl')  # before MuJoCo is imported: no display is needed
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 from PIL import Image, ImageSequence
@@ -13,11 +14,14 @@ from benchmarks.common import ROOT
 from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.recording.pictures.render import FilmOptions, render
 from fluid_sim_ros.recording.reader import open_log
+from fluid_sim_ros.scene import Scene
 
-#: Scene -> simulated time [s], simulated seconds per second, name of the picture.
+#: Short waves, which fit into the picture: height [m], period [s].
+WAVES = {'height': 0.4, 'period': 2.6}
+#: Scene -> simulated time [s], simulated seconds per second, where it is seen from, name.
 FILMS = {
-    'quadrotor': (14.0, 2.0, 'quadrotor_gust'),
-    'bluerov2_waves': (10.0, 1.0, 'bluerov2_waves'),
+    'quadrotor': (14.0, 2.0, (130.0, -15.0, 3.6), 'quadrotor_gust'),
+    'bluerov2_waves': (7.8, 1.0, (115.0, 8.0, 5.5), 'bluerov2_waves'),
 }
 #: Drawn at this size, shown at the other: MuJoCo's letters have one size [pixels].
 DRAWN, SHOWN = (800, 480), (480, 288)
@@ -26,11 +30,15 @@ RATE, COLOURS = 6, 128
 
 def main() -> None:
     """Fly, render and shrink each film."""
-    for scene, (seconds, speed, name) in FILMS.items():
+    for title, (seconds, speed, viewpoint, name) in FILMS.items():
+        scene = Scene.load(title)
+        if scene.waves is not None:
+            scene = replace(scene, waves=scene.waves.model_copy(update=WAVES))
         with tempfile.TemporaryDirectory() as folder:
             log, film = Path(folder) / 'flight.mcap', Path(folder) / 'film.gif'
             run_scene(scene, duration=seconds, hold=True, record=log)
-            render(open_log(log), film, FilmOptions(*DRAWN, RATE, speed), lambda done: None)
+            options = FilmOptions(*DRAWN, RATE, speed, viewpoint=viewpoint)
+            render(open_log(log), film, options, lambda done: None)
             with Image.open(film) as pictures:
                 small = [
                     picture.convert('RGB').resize(SHOWN, Image.Resampling.LANCZOS)

@@ -21,7 +21,7 @@ from PIL import Image
 
 from fluid_sim_ros import Scene, Simulation
 from fluid_sim_ros.control.gait import JointWave, travelling_wave, wing_beat
-from fluid_sim_ros.plugins.drawn_waves import add_waves
+from fluid_sim_ros.recording.pictures.scenery import Scenery
 from test.support.paths import DOC
 
 OUT = DOC / 'img'
@@ -81,7 +81,6 @@ SHOTS = {
     'remus100': Shot(0.0),
     'bluerov2_tether': Shot(0.0),
     'x500_slung_load': Shot(0.0),
-    'fleet_mixed': Shot(0.0, distance=6.5, azimuth=80.0, elevation=-8.0),
 }
 
 
@@ -99,12 +98,13 @@ def still(name: str) -> Image.Image:
     option.geomgroup[:] = [1, 1, 1, 0, 0, 0]  # bodies, not collision or fluid shapes
     # drawn at twice the size, for smooth edges
     model.vis.global_.offwidth, model.vis.global_.offheight = 2 * WIDTH, 2 * HEIGHT
+    scenery = Scenery(model, data, 1.0)
     with mujoco.Renderer(model, 2 * HEIGHT, 2 * WIDTH) as renderer:
         renderer.update_scene(data, camera(shot, places), option)
         if shot.strobe:
             for position, rotation in places:
                 add_copy(renderer.scene, model, shot.strobe[0], position, rotation)
-        add_waves(renderer.scene, model, data, data.xpos[1], 1.0)
+        scenery.dress(renderer.scene, data.xpos[1])
         pixels = renderer.render()
     picture = Image.fromarray(np.asarray(pixels)).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
     # by octree: small parts keep their colours before a large sky

@@ -57,6 +57,11 @@ def add_parsers(commands: Any, show: Show) -> None:
     )
     film.add_argument('--vehicle', default='', metavar='NAME', help='that is followed')
     film.add_argument('--camera', default='', metavar='NAME', help='of the model')
+    film.add_argument(
+        '--from', type=float, nargs=3, dest='viewpoint',
+        metavar=('AZIMUTH', 'ELEVATION', 'DISTANCE'),
+        help='follow it from there: [deg], [deg], and in sizes of the vehicle (120 -20 4)',
+    )  # fmt: skip
     export = add('export', 'write a log as tables, one file per topic', _export)
     kinds = export.add_mutually_exclusive_group(required=True)
     kinds.add_argument('--csv', metavar='FOLDER', type=Path, help='text, every digit kept')
@@ -160,7 +165,7 @@ def _render(arguments: argparse.Namespace, show: Show) -> int:
     width, height = arguments.size
     options = FilmOptions(
         width, height, arguments.fps, arguments.speed, arguments.vehicle, arguments.camera,
-        arguments.at,
+        arguments.at, tuple(arguments.viewpoint) if arguments.viewpoint else None,
     )  # fmt: skip
     with made_folder(out.parent), progress_bar('{task.percentage:.0f} %') as progress:
         task = progress.add_task('rendering', total=1.0)

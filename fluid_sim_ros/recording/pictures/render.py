@@ -13,13 +13,13 @@ from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.output.term_colors import rgb, term_color
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.drawn_arrow import add_arrow, extent
-from fluid_sim_ros.plugins.drawn_waves import add_waves
 from fluid_sim_ros.plugins.renderer import new_renderer
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.pictures.caption import captioned, pixels_per_metre
 from fluid_sim_ros.recording.pictures.film_file import KINDS, Picture, film_file
 from fluid_sim_ros.recording.pictures.poses import LogPoses, latest
+from fluid_sim_ros.recording.pictures.scenery import Scenery
 from fluid_sim_ros.recording.pictures.tracks import Track
 from fluid_sim_ros.scene.vehicle import weight_in_air
 from fluid_sim_ros.schema.limits import check_limit
@@ -35,8 +35,8 @@ _LEAST = 2e-3
 #: A force equal to the weight is drawn this long, in extents of the vehicle.
 _LENGTH = 1.0
 _WIDTH = 0.04
-#: The camera that follows stands this many extents of the vehicle away.
-_DISTANCE = 4.0
+#: Of the camera that follows: azimuth and elevation [deg], and distance [extents].
+_VIEWPOINT = (120.0, -20.0, 4.0)
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,9 @@ class FilmOptions:
         That is followed, and a camera of the model; empty: chosen.
     at
         Simulated time of a still [s]; None: the end.
+    viewpoint
+        Of a camera that follows: azimuth and elevation [deg], and distance in sizes of the
+        vehicle; None: the model's own camera, or one of ours.
 
     """
 
@@ -64,10 +67,15 @@ class FilmOptions:
     vehicle: str = ''
     camera: str = ''
     at: float | None = None
+    viewpoint: tuple[float, float, float] | None = None
 
     def __post_init__(self) -> None:
         if not (self.rate > 0 and self.speed > 0 and self.width > 0 and self.height > 0):
             raise ConfigError('render: size, frames per second and speed must be above 0')
+        if self.viewpoint is not None and self.camera:
+            raise ConfigError('render: --from and --camera: give one of them')
+        if self.viewpoint is not None and not self.viewpoint[2] > 0:
+            raise ConfigError('render: --from: the distance must be above 0')
 
 
 def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float], None]) -> int:
@@ -127,6 +135,7 @@ class _Stage:
         self._name, self._followed = name, self._simulation.vehicles[name].body_id
         self._extent = extent(model, self._followed)
         self._camera = self._choose_camera()
+        self._scenery = Scenery(model, self._data, self._extent)
         self._renderer = new_renderer(model, options.width, options.height)
 
     def frame_times(self) -> Array:
@@ -158,7 +167,7 @@ class _Stage:
         for name, track in self._tracks.items():
             self._add_arrows(name, track, time)
         center = self._data.xpos[self._followed]
-        add_waves(self._renderer.scene, self._model, self._data, center, self._extent)
+        self._scenery.dress(self._renderer.scene, center)
         scale = pixels_per_metre(self._model, self._renderer.scene, center, self._options.height)
         track = self._tracks[self._name]
         speed = float(np.linalg.norm(track.velocity_b[latest(track.times, time)]))
@@ -180,7 +189,7 @@ class _Stage:
                     f'{", ".join(names) or "(none)"}'
                 )
             return self._options.camera
-        for i in range(model.ncam):
+        for i in range(model.ncam if self._options.viewpoint is None else 0):
             tracking = (
                 mujoco.mjtCamLight.mjCAMLIGHT_TRACK,
                 mujoco.mjtCamLight.mjCAMLIGHT_TRACKCOM,
@@ -190,8 +199,8 @@ class _Stage:
         camera = mujoco.MjvCamera()
         camera.type = mujoco.mjtCamera.mjCAMERA_TRACKING
         camera.trackbodyid = self._followed
-        camera.distance = _DISTANCE * self._extent
-        camera.azimuth, camera.elevation = 120.0, -20.0
+        camera.azimuth, camera.elevation, distance = self._options.viewpoint or _VIEWPOINT
+        camera.distance = distance * self._extent
         return camera
 
     def _add_arrows(self, name: str, track: Track, time: float) -> None:

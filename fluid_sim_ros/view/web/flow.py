@@ -18,8 +18,8 @@ _COLORS = {'wind': (110, 130, 160), 'current': (0, 120, 140)}
 _ACROSS, _UP, _APART = 5, 3, 1.6
 #: Slower than this share of the speeds above is drawn as nothing.
 _LEAST = 0.01
-#: The field is drawn anew in every second picture: it changes slower than what moves in it.
-_EVERY = 2
+#: The field is drawn anew in every fourth picture: it changes slower than what moves in it.
+_EVERY = 4
 
 
 class FlowField:

@@ -19,7 +19,7 @@ from fluid_sim_ros.view.web.steering import Steering, script
 #: Pictures a second that are sent, and updates a second of numbers and of plots.
 RATE, _NUMBERS_RATE, _PLOTS_RATE = 24.0, 4.0, 2.0
 #: Of a simulation that goes as fast as it can: every picture takes time from it.
-_FREE_RATE = 10.0
+_FREE_RATE = 6.0
 #: Without a browser nothing is drawn; so often it is looked for one [s].
 _IDLE = 0.1
 #: What was said stays on the page so long [s].
