@@ -36,6 +36,8 @@ class Stages:
         How many geoms move at every evaluation, and in all; the rest moves once per call.
     without_contacts
         Whether the last step was without contacts.
+    moments_by_tree
+        Whether moments of actuators at sites are made along their own trees alone.
 
     """
 
@@ -45,6 +47,7 @@ class Stages:
     moved_geoms: int
     geoms: int
     without_contacts: bool
+    moments_by_tree: bool
 
     @classmethod
     def of(cls, stepped: int, geoms: int) -> 'Stages':
@@ -64,9 +67,9 @@ class Stages:
             As the model is now.
 
         """
-        out = np.zeros(5, dtype=np.int32)
+        out = np.zeros(6, dtype=np.int32)
         nat.native().lean_about(stepped, out.ctypes.data)
-        whole, contacts, constraints, moved, without = out.tolist()
+        whole, contacts, constraints, moved, without, by_tree = out.tolist()
         return cls(
             whole=_WHOLE[whole],
             contacts=_CONTACTS[contacts],
@@ -74,6 +77,7 @@ class Stages:
             moved_geoms=moved,
             geoms=geoms,
             without_contacts=bool(without),
+            moments_by_tree=bool(by_tree),
         )
 
     def words(self) -> str:
@@ -86,6 +90,7 @@ class Stages:
             'always': 'contacts always (no bound on where geoms can be)',
         }[self.contacts]
         others = 'other constraints always' if self.constraints else 'no other constraints'
-        if self.contacts == 'always':
-            return f'{contacts}; {others}; all geoms'
-        return f'{contacts}; {others}; {self.moved_geoms} of {self.geoms} geoms'
+        all_geoms = self.contacts == 'always'
+        geoms = 'all geoms' if all_geoms else f'{self.moved_geoms} of {self.geoms} geoms'
+        moments = '; moments of actuators at sites by tree' if self.moments_by_tree else ''
+        return f'{contacts}; {others}; {geoms}{moments}'

@@ -12,7 +12,8 @@ READ = (
     'xpos', 'xquat', 'xmat', 'xipos', 'geom_xpos', 'geom_xquat', 'geom_xmat', 'site_xpos',
     'site_xmat', 'cam_xpos', 'cam_xmat', 'light_xpos', 'light_xdir', 'subtree_com', 'cvel', 'qacc',
     'qfrc_fluid', 'qfrc_passive', 'qfrc_actuator', 'qfrc_constraint', 'qfrc_bias',
-    'actuator_force', 'sensordata', 'ten_length', 'energy',
+    'actuator_force', 'actuator_length', 'actuator_velocity', 'moment_rownnz', 'moment_rowadr',
+    'sensordata', 'ten_length', 'energy',
 )  # fmt: skip
 
 WORLD = """
@@ -91,5 +92,8 @@ class Beside:
         mujoco.mj_getState(self.model, whole, states[1], STATE)
         assert states[0].tobytes() == states[1].tobytes(), 'state'
         assert (ours.ncon, ours.nefc) == (whole.ncon, whole.nefc)
+        rows = slice(0, int(ours.moment_rownnz.sum()))
+        for name in ('moment_colind', 'actuator_moment'):
+            assert (getattr(ours, name)[rows] == getattr(whole, name)[rows]).all(), name
         for name in READ:
             assert getattr(ours, name).tobytes() == getattr(whole, name).tobytes(), name

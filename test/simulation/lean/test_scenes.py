@@ -32,7 +32,8 @@ def test_scene(scene, integrator):
 def test_doctor_says_what_is_on():
     rows = {row.name: row for row in examine_scene('x500')}
     assert rows['stages'].found == (
-        'contacts while geoms are near each other; no other constraints; 0 of 23 geoms'
+        'contacts while geoms are near each other; no other constraints; 0 of 23 geoms; '
+        'moments of actuators at sites by tree'
     )
     rows = {row.name: row for row in examine_scene('kirchhoff')}
     assert rows['stages'].found.startswith('contacts never')

@@ -141,7 +141,8 @@ FSR_API void fsr_lean_hold_wrenches(void* stepped, int count, const int* address
 
 // What the steps leave out: out[0] why nothing at all (enum Whole, 0: they do), out[1] when
 // contacts are looked for (enum Contacts), out[2] 1 if there are other constraints, out[3] the
-// geoms that move at every evaluation, out[4] 1 if the last step was without contacts.
+// geoms that move at every evaluation, out[4] 1 if the last step was without contacts, out[5] 1 if
+// moments of actuators at sites are made along their own trees alone.
 FSR_API void fsr_lean_about(void* stepped, int* out) {
   Stepped* s = static_cast<Stepped*>(stepped);
   s->lean.Begin(s->m);
@@ -150,4 +151,5 @@ FSR_API void fsr_lean_about(void* stepped, int* out) {
   out[2] = s->lean.constraints();
   out[3] = s->lean.moved_geoms();
   out[4] = s->lean.off();
+  out[5] = s->lean.disguised();
 }

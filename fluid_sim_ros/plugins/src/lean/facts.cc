@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "lean/transmission.h"
+
 namespace fluid_sim {
 namespace {
 
@@ -34,7 +36,10 @@ bool VisitFacts(const mjModel* m, const Visit& visit) {
   return visit(m->opt.disableflags) && all(m->body_pos, 3 * m->nbody) &&
          all(m->body_quat, 4 * m->nbody) && all(m->jnt_pos, 3 * m->njnt) &&
          all(m->jnt_limited, m->njnt) && all(m->dof_frictionloss, m->nv) &&
-         all(m->tendon_limited, m->ntendon) && all(m->tendon_frictionloss, m->ntendon);
+         all(m->tendon_limited, m->ntendon) && all(m->tendon_frictionloss, m->ntendon) &&
+         all(m->actuator_trntype, m->nactuator) && all(m->actuator_trnid, 2 * m->nactuator) &&
+         all(m->actuator_damping, m->nactuator) && all(m->actuator_armature, m->nactuator) &&
+         all(m->actuator_dampingpoly, m->nactuator * mjNPOLY);
 }
 
 template <class T>
@@ -88,8 +93,8 @@ bool OwnPluginsOnly(const mjModel* m) {
 }
 
 bool NoCallbacks() {
-  return !mjcb_passive && !mjcb_control && !mjcb_contactfilter && !mjcb_sensor && !mjcb_act_dyn &&
-         !mjcb_act_gain && !mjcb_act_bias;
+  return !mjcb_passive && NoControlCallback() && !mjcb_contactfilter && !mjcb_sensor &&
+         !mjcb_act_dyn && !mjcb_act_gain && !mjcb_act_bias;
 }
 
 }  // namespace fluid_sim

@@ -51,6 +51,7 @@ void Lean::Learn(const mjModel* m) {
   buffer_ = m->buffer;
   ReadFacts(m, &facts_);
   clearance_ = std::make_unique<Clearance>(m);
+  transmission_.Learn(m);
   own_plugins_ = OwnPluginsOnly(m);
   constraints_ = HasConstraints(m);
   moved_geoms_ = NeededGeoms(m);
@@ -63,6 +64,10 @@ void Lean::Begin(const mjModel* m) {
   whole_ = WhyWhole(m, own_plugins_);
   head_.opt = m->opt;
   head_.stat = m->stat;
+  head_.actuator_trntype = m->actuator_trntype;
+  head_.actuator_trnid = m->actuator_trnid;
+  disguised_ = whole_ == Whole::kNo && transmission_.Ready(m);
+  if (disguised_) transmission_.Disguise(&head_);
 }
 
 void Lean::Step(const mjModel* m, mjData* d, bool last) {
@@ -81,6 +86,7 @@ void Lean::Step(const mjModel* m, mjData* d, bool last) {
   head_.ncam = fewer && m->nsensor == 0 ? 0 : m->ncam;
   head_.nlight = fewer && m->nsensor == 0 ? 0 : m->nlight;
   const int before = FatalWarnings(d);
+  const Served served(disguised_ ? &head_ : nullptr, m);
   if (contacts == Contacts::kWatched && off_ && m->opt.integrator == mjINT_RK4) {
     if (!StepRungeKutta(m, d)) {
       off_ = false;

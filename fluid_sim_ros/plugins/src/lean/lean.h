@@ -1,9 +1,10 @@
 // Steps of a model without the work that cannot change its state.
 //
-// Two savings, both exact to the bit:
+// Three savings, all exact to the bit:
 // - Contacts (and with them all constraints, where the model has no others) are off in a step
 //   while no two geoms can touch at any of its evaluations (clearance.h).
 // - Geoms that only are looked at, cameras and lights are moved in the last step of a call alone.
+// - Moments of actuators at sites are made along their own trees alone (transmission.h).
 // The step itself is MuJoCo's, of a copy of mjModel's head that shares all arrays with the model.
 
 #ifndef FLUID_SIM_LEAN_LEAN_H_
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "lean/clearance.h"
+#include "lean/transmission.h"
 
 namespace fluid_sim {
 
@@ -42,6 +44,7 @@ class Lean {
   bool constraints() const { return constraints_; }  // other than contacts
   int moved_geoms() const { return moved_geoms_; }   // at every evaluation
   bool off() const { return off_; }                  // contacts, in the last step
+  bool disguised() const { return disguised_; }      // moments by tree (transmission.h)
 
  private:
   void Learn(const mjModel* m);
@@ -54,9 +57,11 @@ class Lean {
   const void* buffer_;
   std::vector<mjtNum> facts_;  // what the rest was learnt from
   std::unique_ptr<Clearance> clearance_;
+  Transmission transmission_;
   std::vector<mjtNum> kept_;  // state before a step
   mjWarningStat kept_warnings_[mjNWARNING];
   Whole whole_ = Whole::kNo;
+  bool disguised_ = false;  // the head's actuators, in this call
   bool own_plugins_ = false, constraints_ = true, off_ = false;
   int moved_geoms_ = 0;
   int wait_ = 0;  // steps with contacts, before the next look
