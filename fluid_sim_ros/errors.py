@@ -5,6 +5,7 @@ Text of files, logs and networks goes into them, and onto a terminal, by ``print
 """
 
 import difflib
+import errno
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from datetime import date
@@ -61,6 +62,10 @@ class PluginError(FluidSimError):
 
 class MissingExtraError(FluidSimError):
     """An optional part is not installed; the message says which extra brings it."""
+
+
+class MachineError(ConfigError):
+    """The machine cannot do what was asked, whatever the files say: no OpenGL, no space."""
 
 
 class AutopilotError(FluidSimError):
@@ -177,6 +182,39 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     # two letters that changed places weigh too much in short words
     similar += [name for name in written if sorted(name) == sorted(word)]
     return f"; did you mean '{printable(written[similar[0]])}'?" if similar else ';'
+
+
+#: What a machine lacks or forbids, whatever is asked of it, and what helps.
+_OF_MACHINE = {
+    errno.EMFILE: '; raise the limit, such as: ulimit -n 1024',
+    errno.ENFILE: '; close other programs',
+    errno.EAGAIN: '; close other programs',
+    errno.ENOSPC: '',
+    errno.EDQUOT: '',
+    errno.EROFS: '',
+}
+
+
+def of_machine(error: OSError) -> str:
+    """
+    Return what to say of an error that is the machine's, whatever file it met; or nothing.
+
+    Parameters
+    ----------
+    error
+        Of the operating system.
+
+    Returns
+    -------
+    str
+        What is lacking, with the file and the remedy where they are known; empty: it may as well
+        be the file's.
+
+    """
+    if error.errno not in _OF_MACHINE:
+        return ''
+    where = f'{printable(str(error.filename), 1000)}: ' if error.filename else ''
+    return f'{where}{error.strerror}{_OF_MACHINE[error.errno]}'
 
 
 @contextmanager

@@ -4,12 +4,12 @@ The ``fluid_sim`` command.
 Each subcommand imports what it needs when it runs, so that ``fluid_sim --help`` is instant.
 Exit codes: 0, 1 (the simulation diverged, an autopilot died or was not heard, the doctor found a
 fault, or a log is damaged or not repeated), 2 (wrong input), 130 and 143 (ended by SIGINT or
-SIGTERM).
+SIGTERM), 141 (nobody reads the output any more).
 """
 
 import argparse
-import errno
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -27,9 +27,10 @@ from fluid_sim_ros.errors import (
     DivergedError,
     FluidSimError,
     needed_for,
+    of_machine,
     printable,
 )
-from fluid_sim_ros.interruption import begin, begun, interrupted_by, settle
+from fluid_sim_ros.interruption import begin, begun, exit_code, interrupted_by, settle
 from fluid_sim_ros.output.json_file import write_json
 
 DIVERGED = FAILED = 1
@@ -59,22 +60,30 @@ def main(argv: Sequence[str] | None = None) -> int:
         # traceback on Ctrl-C. What makes pictures asks for its renderer.
         os.environ.setdefault('MUJOCO_GL', 'disable')
     words = sys.argv[1:] if argv is None else list(argv)
+    try:
+        code = _run(words)
+        sys.stdout.flush()
+        settle()  # within the block: no moment is left in which nobody takes an interruption
+    except KeyboardInterrupt:
+        return _fail('interrupted', interrupted_by() or INTERRUPTED)
+    except OSError as error:
+        if not isinstance(error, BrokenPipeError) and not of_machine(error):
+            raise
+        _drop_output()
+        if isinstance(error, BrokenPipeError):  # whoever read the output has enough of it
+            return exit_code(signal.SIGPIPE)
+        return _fail(of_machine(error), WRONG_INPUT)
+    return code
+
+
+def _run(words: Sequence[str]) -> int:
     parser = _build_parser()
     completion.complete(parser)
     parser.shows_itself(words)
     arguments, rest = parser.parse_known_args(words)
     if rest and arguments.command != 'demo':
         parser.commands[arguments.command].refuse(rest)
-    try:
-        begun()
-        code = _run(arguments, rest)
-        settle()  # within the block: no moment is left in which nobody takes an interruption
-    except KeyboardInterrupt:
-        return _fail('interrupted', interrupted_by() or INTERRUPTED)
-    return code
-
-
-def _run(arguments: argparse.Namespace, rest: Sequence[str]) -> int:
+    begun()
     try:
         if arguments.command == 'demo':
             return _demo(rest)
@@ -83,11 +92,16 @@ def _run(arguments: argparse.Namespace, rest: Sequence[str]) -> int:
         return _fail(error, DIVERGED)
     except FluidSimError as error:
         return _fail(error, WRONG_INPUT)
-    except OSError as error:
-        if error.errno not in (errno.EMFILE, errno.ENFILE):
-            raise
-        return _fail(f'{error.strerror}; raise the limit, such as: ulimit -n 1024', WRONG_INPUT)
     return code
+
+
+def _drop_output() -> None:
+    """Have what is left of the output go nowhere: Python would try once more as it ends."""
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+    except (OSError, ValueError):  # no output of the system's
+        return
 
 
 def _fail(reason: object, code: int) -> int:

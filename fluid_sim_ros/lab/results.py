@@ -13,6 +13,7 @@ import mujoco
 from fluid_sim_ros import __version__
 from fluid_sim_ros.errors import ConfigError, printable
 from fluid_sim_ros.lab.charts.pareto import judged
+from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.limits import check_limit, limit
 
@@ -38,7 +39,8 @@ def save(result: dict[str, Any], path: Path) -> Path:
 
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(result, indent=1, allow_nan=False) + '\n', encoding='utf-8')
+    with new_file(path) as file:
+        file.write_text(json.dumps(result, indent=1, allow_nan=False) + '\n', encoding='utf-8')
     return path
 
 
@@ -105,7 +107,7 @@ def write_csv(result: dict[str, Any], path: Path) -> Path:
         'wall_quartile_high_us_per_s', 'error', 'discretisation', 'pareto', 'failed_at_s', 'fault',
     )  # fmt: skip
     names = sorted({name for point in result['points'] for name in point['error'] or ()})
-    with path.open('w', newline='', encoding='utf-8') as file:
+    with new_file(path) as made, made.open('w', newline='', encoding='utf-8') as file:
         writer = csv.writer(file)
         writer.writerow([*fields, *names])
         for point in result['points']:

@@ -1,12 +1,13 @@
 """Files that are made of other people's data: never through a link, never two of one name."""
 
 import os
+import stat
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from fluid_sim_ros.errors import ConfigError, printable
+from fluid_sim_ros.errors import ConfigError, MachineError, printable
 from fluid_sim_ros.interruption import owns
 
 #: Longest name of a file, without its ending [characters].
@@ -35,7 +36,7 @@ def new_file(path: Path) -> Iterator[Path]:
     Raises
     ------
     ConfigError
-        If a link stands there, or the file cannot be made.
+        If a link stands there; a ``MachineError`` if the file cannot be written.
 
     """
     owns()
@@ -44,23 +45,32 @@ def new_file(path: Path) -> Iterator[Path]:
         raise ConfigError(f'{shown}: a link stands there; remove it, or choose another place')
     if path.is_dir():
         raise ConfigError(f'{shown}: a folder stands there')
+    if path.exists() and not os.access(path, os.W_OK):
+        raise ConfigError(f'{shown}: cannot be written (it is read-only)')
     try:
         handle, name = tempfile.mkstemp(path.suffix, '.new_', path.parent)
     except OSError as error:
-        raise ConfigError(f'{shown}: cannot be written ({error.strerror})') from None
+        raise MachineError(f'{shown}: cannot be written ({error.strerror})') from None
     os.close(handle)
     temporary = Path(name)
     try:
         yield temporary
-        mask = os.umask(0)
-        os.umask(mask)
-        temporary.chmod(0o666 & ~mask)
+        temporary.chmod(_mode(path))
         temporary.replace(path)
     except OSError as error:
-        raise ConfigError(f'{shown}: cannot be written ({error.strerror or error})') from None
+        raise MachineError(f'{shown}: cannot be written ({error.strerror or error})') from None
     finally:
         with suppress(OSError):
             temporary.unlink()
+
+
+def _mode(path: Path) -> int:
+    """Return the mode of a file that stands there, or of a new one."""
+    if path.exists():
+        return stat.S_IMODE(path.stat().st_mode)
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
 
 
 def file_names(names: Iterable[str]) -> list[str]:

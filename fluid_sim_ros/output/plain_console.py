@@ -1,7 +1,7 @@
 """A console on which no text of a file acts: control characters are shown, not sent."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NoReturn
 
 from rich.console import Console
 from rich.segment import Segment
@@ -11,6 +11,10 @@ from fluid_sim_ros.errors import printable
 
 class PlainConsole(Console):
     """A console of rich whose texts lose what a terminal would act on; colours are its own."""
+
+    def on_broken_pipe(self) -> NoReturn:
+        """Leave it to the program what to do where nobody reads its output any more."""
+        raise
 
     def render(self, *arguments: Any, **options: Any) -> Iterator[Segment]:
         """

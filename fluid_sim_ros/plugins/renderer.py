@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import mujoco
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, MachineError
 
 _REMEDY = 'without a display set MUJOCO_GL=egl (or osmesa) before Python starts'
 _NO_EGL = (
@@ -37,7 +37,7 @@ def new_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rende
     Raises
     ------
     ConfigError
-        If nothing, or no picture of this size, can be drawn here.
+        If no picture of this size can be drawn here; a ``MachineError`` if none at all.
 
     """
     begin = f'render: no picture of {width} x {height} pixels can be drawn here: '
@@ -45,7 +45,7 @@ def new_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rende
         try:
             return mujoco.Renderer(model, height, width)
         except AttributeError:  # MUJOCO_GL says so
-            raise ConfigError(begin + f'MuJoCo was told to draw nothing; {_REMEDY}') from None
+            raise MachineError(begin + f'MuJoCo was told to draw nothing; {_REMEDY}') from None
 
 
 @contextmanager
@@ -68,11 +68,11 @@ def only_once(begin: str, remedy: str) -> Iterator[None]:
     Raises
     ------
     ConfigError
-        If nothing can be drawn here, in one line.
+        If this cannot be drawn here, in one line; a ``MachineError`` if nothing can.
 
     """
     if _failures:
-        raise ConfigError(begin + _failures[0])
+        raise MachineError(begin + _failures[0])
     try:
         yield
     except (mujoco.FatalError, RuntimeError, ValueError) as error:
@@ -80,6 +80,7 @@ def only_once(begin: str, remedy: str) -> Iterator[None]:
         if isinstance(error, mujoco.FatalError) and not _drawn:
             why = f'{why}; {remedy}'
             _failures.append(why)
+            raise MachineError(begin + why) from None
         raise ConfigError(begin + why) from None
     _drawn.append(True)
 
@@ -101,7 +102,7 @@ def by_egl(begin: str) -> Iterator[None]:
 
     Raises
     ------
-    ConfigError
+    MachineError
         If nothing can be drawn here, in one line.
 
     """
@@ -109,8 +110,8 @@ def by_egl(begin: str) -> Iterator[None]:
         try:
             from OpenGL.error import Error as OpenGLError
         except ImportError as error:
-            raise ConfigError(f'{begin}{error}; {_NO_EGL}') from None
+            raise MachineError(f'{begin}{error}; {_NO_EGL}') from None
         try:
             yield
         except (ImportError, AttributeError, OpenGLError) as error:  # no library, no device
-            raise ConfigError(f'{begin}{" ".join(str(error).split())}; {_NO_EGL}') from None
+            raise MachineError(f'{begin}{" ".join(str(error).split())}; {_NO_EGL}') from None

@@ -12,6 +12,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import printable
 from fluid_sim_ros.output.html_page import write_page
+from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.reality.compare import BASELINES, Comparison
 from fluid_sim_ros.reality.residuals import AXES, Residuals
 
@@ -53,7 +54,8 @@ def draw(comparison: Comparison, path: Path) -> Path:
         found = comparison.residuals
         _series(found, axes[1])
         _scatter(found, axes[2])
-        figure.savefig(path)
+        with new_file(path) as file:
+            figure.savefig(file)
         plt.close(figure)
     return path
 

@@ -14,7 +14,14 @@ from pathlib import Path
 import mujoco
 import zstandard
 
-from fluid_sim_ros.errors import DivergedError, FluidSimError, MissingExtraError, printable
+from fluid_sim_ros.errors import (
+    DivergedError,
+    FluidSimError,
+    MachineError,
+    MissingExtraError,
+    of_machine,
+    printable,
+)
 from fluid_sim_ros.recording.model.mjcf_text import MjcfError
 
 
@@ -54,20 +61,24 @@ def reading(path: Path, place: str = '') -> Iterator[None]:
     Raises
     ------
     LogError
-        With file, place and reason; a simulation that diverges, and a package that is missing,
-        are no faults of a log and stay what they are.
+        With file, place and reason. A simulation that diverges, a package that is missing and
+        what the machine cannot do are no faults of a log, and stay what they are.
+    MachineError
+        Where there is no space, or no file handle.
 
     """
     where = f'{printable(str(path), 1000)}: ' + (f'{place}: ' if place else '')
     try:
         yield
-    except (DivergedError, MissingExtraError):
+    except (DivergedError, MachineError, MissingExtraError):
         raise
     except (FluidSimError, BadRecordError, MjcfError) as error:
         line = str(error)
         known = isinstance(error, LogError) and line.startswith(where.split(': ')[0])
         raise LogError(line if known else f'{where}{line}') from error
     except _FORESEEN as error:
+        if isinstance(error, OSError) and (lacking := of_machine(error)):
+            raise MachineError(lacking) from error
         raise LogError(f'{where}{reason_of(error)}') from error
 
 

@@ -1,12 +1,16 @@
 """What is in a log, whether it is sound, and a clean copy of one that is not."""
 
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from mcap.writer import CompressionType, Writer
 
-from fluid_sim_ros.errors import printable
+from fluid_sim_ros.errors import MachineError, of_machine, printable
+from fluid_sim_ros.interruption import owns
 from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.reader import open_log
@@ -149,6 +153,28 @@ def _rate(entry: Count) -> float | None:
     return round((entry.messages - 1) / seconds, 3) if seconds > 0 else None
 
 
+@contextmanager
+def _made(target: Path) -> Iterator[BinaryIO]:
+    """Make a new file; where the block fails, nothing is left of it and of folders made for it."""
+    owns()
+    new = [each for each in target.parents if not each.exists()]
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        stream = target.open('xb')
+    except OSError as error:
+        raise LogError(f'{target}: {error.strerror}') from None
+    try:
+        with stream:
+            yield stream
+    except BaseException as error:
+        target.unlink(missing_ok=True)
+        for folder in new:  # the innermost first
+            shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(error, OSError) and of_machine(error):
+            raise MachineError(f'{target}: cannot be written ({error.strerror})') from None
+        raise
+
+
 def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[str, Any]:
     """
     Write all that is sound in a log to a new file.
@@ -173,16 +199,13 @@ def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[st
     ------
     LogError
         If there is nothing to read, or ``out`` exists already.
+    MachineError
+        If it cannot be written; nothing is left of it then.
 
     """
     log = open_log(path)
     target = out if out.suffix == '.mcap' else out / f'{out.name}_0.mcap'
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        stream = target.open('xb')
-    except OSError as error:
-        raise LogError(f'{target}: {error.strerror}') from None
-    with stream:
+    with _made(target) as stream:
         writer = Writer(
             stream, chunk_size, CompressionType.ZSTD, enable_crcs=True, enable_data_crcs=True
         )
@@ -210,15 +233,16 @@ def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[st
             contents.total.messages += 1
             contents.total.last_ns = message.log_ns
         writer.finish()
-    if out != target:
-        topics = list(log.topics.values())
-        rosbag2.write_metadata(
-            target,
-            [{'topic': t.name, 'type': t.type, 'metadata': t.metadata} for t in topics],
-            [contents.topics[t.name].messages for t in topics],
-            contents.total.first_ns,
-            contents.total.last_ns,
-        )
+        stream.flush()
+        if out != target:
+            topics = list(log.topics.values())
+            rosbag2.write_metadata(
+                target,
+                [{'topic': t.name, 'type': t.type, 'metadata': t.metadata} for t in topics],
+                [contents.topics[t.name].messages for t in topics],
+                contents.total.first_ns,
+                contents.total.last_ns,
+            )
     return {
         'path': str(target), 'bytes': target.stat().st_size,
         'messages': contents.total.messages, 'lost': log.faults,

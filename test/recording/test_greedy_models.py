@@ -9,6 +9,8 @@ import pytest
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from fluid_sim_ros.schema.limits import VARIABLE
+from test.support.hostile.commands import COMMANDS
+from test.support.hostile.judge import judged
 from test.support.log_files import rewritten
 from test.support.log_models import body_model as model
 
@@ -75,3 +77,15 @@ def test_the_limit_of_the_model_can_be_raised(body_flight, tmp_path, monkeypatch
         resimulate(open_log(log))
     monkeypatch.setenv(VARIABLE, 'model_bytes=1e9')
     assert resimulate(open_log(log)).difference is None
+
+
+def test_a_picture_is_no_larger_than_the_film_whatever_a_model_asks_for(body_flight, tmp_path):
+    """Buffers of 16384 x 16384 pixels, 4 samples and a shadow map as large would be 7 GiB."""
+    size = '<global offwidth="16384" offheight="16384"/><quality shadowsize="16384"/>'
+    asked = model(head=f'<visual>{size}</visual>')
+    log = rewritten(body_flight, tmp_path / 'large.mcap', files={'m.xml': asked})
+    action = COMMANDS['render'][1]
+    action(body_flight, tmp_path)  # the libraries that draw take their memory once
+    verdict = judged(lambda: action(log, tmp_path), log.stat().st_size)
+    assert verdict.outcome == 'read', verdict
+    assert verdict.memory < 100 << 20

@@ -44,4 +44,5 @@ def test_a_second_picture_without_opengl_is_refused_like_the_first(chosen, tmp_p
     assert len(lines) == 3
     assert len(set(lines)) == 1
     assert 'can be drawn here' in lines[0]
+    assert lines[0].startswith('render: ')  # it is no fault of the log
     assert 'MUJOCO_GL=egl' in lines[0]

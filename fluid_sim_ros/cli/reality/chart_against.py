@@ -10,6 +10,7 @@ from fluid_sim_ros.cli.reality.compare import outputs_of
 from fluid_sim_ros.cli.reality.info import mapping_of
 from fluid_sim_ros.cli.shared import Show, made_folder, plain_text, progress_of_parts, unbroken
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.output.new_file import new_file
 
 
 def add_against(chart: argparse.ArgumentParser) -> None:
@@ -81,7 +82,8 @@ def chart_flight(arguments: argparse.Namespace, show: Show) -> int:
     with made_folder(arguments.out) as folder:
         stem = folder / f'{Path(arguments.model).stem}_against_{Path(arguments.against).stem}'
         numbers = stem.with_suffix('.json')
-        numbers.write_text(json.dumps(result, indent=1) + '\n', encoding='utf-8')
+        with new_file(numbers) as file:
+            file.write_text(json.dumps(result, indent=1) + '\n', encoding='utf-8')
         files = [numbers, draw_against(result, stem.with_suffix('.png'))]
     result['files'] = [str(file) for file in files]
     show(arguments.json, _table(result, files), result)

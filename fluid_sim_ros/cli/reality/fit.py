@@ -12,6 +12,7 @@ from fluid_sim_ros.cli.reality.compare import add_model, outputs_of
 from fluid_sim_ros.cli.reality.info import mapping_of
 from fluid_sim_ros.cli.shared import Show, add_command, plain_text, progress_of_parts, unbroken
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.schema.data_file import open_data
 
 if TYPE_CHECKING:
@@ -120,7 +121,8 @@ def _kept(path: Path | None) -> dict[str, float]:
 def _keeper(path: Path | None) -> Callable[[dict[str, float]], None]:
     def keep(values: dict[str, float]) -> None:
         if path is not None:
-            path.write_text(json.dumps(values, indent=1) + '\n', encoding='utf-8')
+            with new_file(path) as file:
+                file.write_text(json.dumps(values, indent=1) + '\n', encoding='utf-8')
 
     return keep
 

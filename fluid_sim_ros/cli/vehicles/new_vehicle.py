@@ -8,7 +8,7 @@ from typing import Any
 import yaml
 
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.output.new_file import new_file
 
 
 def add_parsers(commands: Any, show: Show) -> None:
@@ -127,10 +127,8 @@ def _layout(arguments: argparse.Namespace, show: Show) -> int:
         text = json.dumps(layout, indent=1) + '\n'
         parts = list(layout['configById'])
         use = 'in Foxglove: Import layout'
-    try:
-        path.write_text(text, encoding='utf-8')
-    except OSError as error:
-        raise ConfigError(f'--out {path}: {error.strerror}') from None
+    with new_file(path) as file:
+        file.write_text(text, encoding='utf-8')
     result = {'path': str(path), 'vehicle': name, 'panels': parts}
     show(arguments.json, escape(f'{path}: {", ".join(parts)}; {use}'), result)
     return 0

@@ -21,6 +21,7 @@ from ruamel.yaml.scalarfloat import ScalarFloat
 from ruamel.yaml.util import load_yaml_guess_indent
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.resources import config_folder
 from fluid_sim_ros.scene import Scene
 
@@ -124,28 +125,28 @@ def keep(scene: str, advised: Mapping[str, Any]) -> Path:
 def _write(
     scene: str, changes: Mapping[str, Any], comment: str, holds: Callable[[Scene], bool]
 ) -> Path:
-    """Change keys of a scene's file; take it back where the file then is not right."""
+    """Change keys of a scene's file; it stays as it is where the new one would not be right."""
     path = scene_file(scene)
     try:
         before = path.read_bytes().decode()
-        path.write_bytes(changed_text(before, changes, comment).encode())
+        after = changed_text(before, changes, comment)
     except OSError as error:
-        raise ConfigError(f'{path}: cannot be written ({error.strerror})') from None
+        raise ConfigError(f'{path}: cannot be read ({error.strerror})') from None
     except (UnicodeDecodeError, YAMLError) as error:
         line = ' '.join(str(error).split())
         raise ConfigError(f'{path}: cannot be read as YAML: {line}') from None
-    try:
-        good = holds(Scene.load(path)) and _others(before, changes) == _others(
-            path.read_text(encoding='utf-8'), changes
-        )
-    except ConfigError:
-        good = False
-    if not good:
-        path.write_bytes(before.encode())
-        raise ConfigError(
-            f'{path}: the settings could not be put in; write them by hand: '
-            f'{yaml.safe_dump(_stated(changes), default_flow_style=True, width=1 << 20).strip()}'
-        )
+    # whole, in the same folder, and tried, before it takes its place: also on a disk that is full
+    with new_file(path.resolve()) as file:
+        file.write_bytes(after.encode())
+        try:
+            good = holds(Scene.load(file)) and _others(before, changes) == _others(after, changes)
+        except ConfigError:
+            good = False
+        if not good:
+            stated = yaml.safe_dump(_stated(changes), default_flow_style=True, width=1 << 20)
+            raise ConfigError(
+                f'{path}: the settings could not be put in; write them by hand: {stated.strip()}'
+            )
     return path
 
 

@@ -9,6 +9,8 @@ mpl.use('Agg')
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
+from fluid_sim_ros.output.new_file import new_file
+
 STYLE: Any = {
     'font.size': 9, 'axes.grid': True, 'grid.alpha': 0.25, 'axes.spines.top': False,
     'axes.spines.right': False, 'figure.dpi': 100, 'legend.frameon': False,
@@ -35,6 +37,7 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    with new_file(path) as file:
+        figure.savefig(file)
     plt.close(figure)
     return path

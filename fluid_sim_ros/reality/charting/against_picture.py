@@ -5,6 +5,8 @@ from typing import Any
 
 import matplotlib as mpl
 
+from fluid_sim_ros.output.new_file import new_file
+
 _MARKERS = {'Euler': 'o', 'implicitfast': 's', 'RK4': '^', 'implicit': 'D'}
 
 
@@ -64,6 +66,7 @@ def draw_against(result: dict[str, Any], path: Path) -> Path:
         f'{result["model"]} against {log}: {result["windows"]} windows, '
         'circles Euler, squares implicitfast, triangles RK4', fontsize=10,
     )  # fmt: skip
-    figure.savefig(path, dpi=110)
+    with new_file(path) as file:
+        figure.savefig(file, dpi=110)
     plt.close(figure)
     return path

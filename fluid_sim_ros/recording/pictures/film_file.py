@@ -1,5 +1,9 @@
 """The files that a film goes to: MP4, GIF, or one picture as PNG."""
 
+import errno
+import os
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -9,6 +13,8 @@ from numpy.typing import NDArray
 Picture = NDArray[np.uint8]
 
 KINDS = ('.mp4', '.gif', '.png')
+#: Free space below which ffmpeg has failed for want of it [bytes]: it writes in larger parts.
+_FULL = 1 << 20
 
 
 class FilmFile(Protocol):
@@ -57,16 +63,32 @@ class _Video(FilmFile):
     def __init__(self, out: Path, width: int, height: int, rate: float) -> None:
         import imageio_ffmpeg
 
+        self._out, self._pictures = out, 0
+        # what ffmpeg itself says goes to the terminal, with names of files of ours that pass
         self._generator: Any = imageio_ffmpeg.write_frames(
-            str(out), (width, height), fps=rate, quality=7
+            str(out), (width, height), fps=rate, quality=7, ffmpeg_log_level='quiet'
         )
-        self._generator.send(None)
+        self._do(lambda: self._generator.send(None))
 
     def add(self, picture: Picture) -> None:
-        self._generator.send(np.ascontiguousarray(picture))
+        self._pictures += 1
+        self._do(lambda: self._generator.send(np.ascontiguousarray(picture)))
 
     def close(self) -> None:
-        self._generator.close()
+        self._do(self._generator.close)
+        if self._pictures and not self._out.stat().st_size:
+            raise self._fault()
+
+    def _do(self, work: Callable[[], object]) -> None:
+        try:
+            work()
+        except OSError:  # all that ffmpeg has said, on many lines
+            raise self._fault() from None
+
+    def _fault(self) -> OSError:
+        if shutil.disk_usage(self._out.parent).free < _FULL:
+            return OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return OSError(errno.EIO, 'ffmpeg failed')
 
 
 class _Images(FilmFile):

@@ -1,6 +1,7 @@
 """A log as a film: MuJoCo's renderer on the recorded poses, with force arrows."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,9 @@ _LENGTH = 1.0
 _WIDTH = 0.04
 #: Of the camera that follows: azimuth and elevation [deg], and distance [extents].
 _VIEWPOINT = (120.0, -20.0, 4.0)
+#: Most pixels of a side of the shadow map, of 4 bytes each, and most samples of a pixel. MuJoCo's
+#: own are 4096, which is 64 MiB, and 4.
+_SHADOWS, _SAMPLES = 2048, 4
 
 
 @dataclass(frozen=True)
@@ -97,26 +101,45 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
     Raises
     ------
     ConfigError, LogError
-        For another kind of file, or a log without odometry.
+        For another kind of file, or a log without odometry; a ``MachineError`` where nothing can
+        be drawn, or written.
 
     """
     if out.suffix not in KINDS:
         raise ConfigError(f"render: '{out.suffix}' is not known; allowed: {listed(KINDS)}")
+    count = 0
+    with new_file(out) as temporary, closing(_drawn(log, options, out.suffix == '.png')) as drawn:
+        file = film_file(temporary, options.width, options.height, options.rate)
+        try:
+            for share, picture in drawn:
+                file.add(picture)
+                progress(share)
+                count += 1
+        finally:
+            file.close()
+    return count
+
+
+def _drawn(log: Log, options: FilmOptions, still: bool) -> Iterator[tuple[float, Picture]]:
+    """Yield the pictures, each with the share that is done."""
     with reading(log.path):
         stage = _Stage(log, options)
-        times = stage.frame_times()
-        if out.suffix == '.png':
-            times = times[-1:] if options.at is None else stage.time_of_still(options.at)
-        with new_file(out) as temporary:
-            file = film_file(temporary, options.width, options.height, options.rate)
-            try:
-                for number, time in enumerate(times, 1):
-                    file.add(stage.picture(time))
-                    progress(number / len(times))
-            finally:
-                file.close()
-                stage.close()
-    return len(times)
+        try:
+            times = stage.frame_times()
+            if still:
+                times = times[-1:] if options.at is None else stage.time_of_still(options.at)
+            for number, time in enumerate(times, 1):
+                yield number / len(times), stage.picture(time)
+        finally:
+            stage.close()
+
+
+def _bound_buffers(model: mujoco.MjModel, options: FilmOptions) -> None:
+    """Have OpenGL keep no larger pictures than the film needs, whatever a log's model asks for."""
+    quality, size = model.vis.quality, model.vis.global_
+    size.offwidth, size.offheight = options.width, options.height
+    quality.shadowsize = min(quality.shadowsize, _SHADOWS)
+    quality.offsamples = min(quality.offsamples, _SAMPLES)
 
 
 class _Stage:
@@ -128,8 +151,7 @@ class _Stage:
         self._simulation = self._poses.simulation
         self._data = self._simulation.data
         self._model = model = self._simulation.model
-        model.vis.global_.offwidth = max(model.vis.global_.offwidth, options.width)
-        model.vis.global_.offheight = max(model.vis.global_.offheight, options.height)
+        _bound_buffers(model, options)
         self._tracks = self._poses.tracks
         name = self._poses.check_vehicle(options.vehicle, log.path)
         self._name, self._followed = name, self._simulation.vehicles[name].body_id

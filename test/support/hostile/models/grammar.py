@@ -56,7 +56,8 @@ class _Writer:
             self.thruster(i)
         for i in range(draw.choice((0, 0, 1, 2)) if fluid.dense else 0):
             self.foil(i)
-        self.drawn.xml = f"""<mujoco model="drawn">{self.option()}
+        # MuJoCo's own choice is 13 MiB, which a sanitizer clears and fills for each mjData
+        self.drawn.xml = f"""<mujoco model="drawn">{self.option()}<size memory="4M"/>
 <asset><mesh name="wedge" vertex="{_MESH}" scale=".3 .2 .1"/></asset>
 <custom>{self.grids()}</custom><extension>{self.extension()}</extension>
 <worldbody>{'<geom type="plane" size="9 9 .1" pos="0 0 -2"/>' if draw.yes(0.3) else ''}{trees}
