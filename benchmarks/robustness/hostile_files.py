@@ -7,15 +7,19 @@ of other software and settings (``test.support.hostile.foreign``) are opened as 
 a result, or an error of ours on one printable line; wrong is a traceback, a crash, more than
 10 s of processor time (or a minute of wall time), memory beyond four times the file and 256 MiB, a
 file touched outside of the working folder, or text that a terminal acts on. Fixed seeds.
-Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--divide N]``;
-the result states how many were planned and how many of them were judged.
+Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--divide N]
+[--more SECONDS]``; with ``--more`` those that follow the ones of the result are judged and added
+to it, for so long, a quarter of it for logs. The result states how many were planned and how many
+of them were judged.
 """
 
 import json
+import math
 import os
 import subprocess
 import sys
 import tempfile
+import time
 import warnings
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -30,8 +34,10 @@ from test.support.hostile.judge import MOST_WALL, Outside, Trials, Verdict, judg
 
 LOGS, FILES = 20_000, 2_000
 QUICK = 20
-#: Files that one process opens; a crash costs the rest of its portion.
-PORTION = 250
+#: Files that one process opens, also where time is limited; a crash costs the rest of its portion.
+PORTION, SMALL_PORTION = 250, 50
+#: Share of the time of ``--more`` that logs have.
+LOGS_SHARE = 0.25
 
 
 def judge_portion(kind: str, first: int, last: int) -> None:
@@ -144,6 +150,34 @@ def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
+def together(before: dict[str, Any], now: dict[str, Any]) -> dict[str, Any]:
+    """Return the summary of a kind, of what was judged before and now."""
+    most = ('most_seconds', 'most_memory_mib', 'most_memory_of_a_trial_mib')
+    return before | {
+        'files': before['files'] + now['files'],
+        'wrong': before['wrong'] + now['wrong'],
+        'outcomes': dict(Counter(before['outcomes']) + Counter(now['outcomes'])),
+        'commands': dict(Counter(before['commands']) + Counter(now['commands'])),
+        **{key: max(before[key], now[key]) for key in most},
+        'examples_of_wrong': (before['examples_of_wrong'] + now['examples_of_wrong'])[:20],
+    }
+
+
+def judged_kind(
+    kind: str, pool: ThreadPoolExecutor, first: int, last: int, seconds: float
+) -> list[dict[str, Any]]:
+    """Judge the files of some seeds, for so long [s]; return what was printed of each."""
+    end = time.monotonic() + seconds
+    size = PORTION if math.isinf(seconds) else SMALL_PORTION
+
+    def portion(begin: int) -> list[dict[str, Any]]:
+        if time.monotonic() > end:
+            return []  # portions begin in order: no later one is judged either
+        return run_portion(kind, begin, min(begin + size, last))
+
+    return [line for lines in pool.map(portion, range(first, last, size)) for line in lines]
+
+
 def main() -> None:
     """Measure and write the result."""
     kinds = ('log', *KINDS, *FOREIGN)
@@ -151,36 +185,39 @@ def main() -> None:
         __doc__, 'hostile_files', kinds,
         more={
             'portion': 'of a process: KIND FIRST LAST', 'divide': 'judge one part in so many',
+            'more': 'go on with those that follow the ones of the result for so long [s]',
         },
     )  # fmt: skip
     if options.portion:
         kind, first, last = options.portion.split()
         judge_portion(kind, int(first), int(last))
         return
-    kept = {}
-    if options.only and options.json.exists():
+    kept: dict[str, Any] = {}
+    if (options.only or options.more) and options.json.exists():
         kept = json.loads(options.json.read_text(encoding='utf-8')).get('kinds', {})
-    result: dict[str, Any] = {}
+    chosen = options.only or kinds
+    others = float(options.more or math.inf) * (1 - LOGS_SHARE) / max(1, len(chosen) - 1)
+    result = dict(kept)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for kind in options.only or kinds:
+        for kind in chosen:
             planned = LOGS if kind == 'log' else FILES
             count = planned // (QUICK if options.quick else int(options.divide or 1))
-            firsts = range(0, count, PORTION)
-            portions = pool.map(
-                lambda first, kind=kind, count=count: run_portion(
-                    kind, first, min(first + PORTION, count)
-                ),
-                firsts,
+            before = kept.get(kind) if options.more else None
+            first = before['files'] if before else 0
+            seconds = (
+                float(options.more) * LOGS_SHARE if options.more and kind == 'log' else others
             )
-            found = [line for portion in portions for line in portion]
-            result[kind] = {'planned': planned, **summary(found)}
+            found = judged_kind(kind, pool, first, count, seconds)
+            if not found:
+                continue
+            now = {'planned': planned, **summary(found)}
+            result[kind] = together(before, now) if before else now
             print(kind, {key: result[kind][key] for key in ('files', 'outcomes', 'most_seconds')})
-    result = kept | result
-    write(options.json, {
-        'files': sum(kind['files'] for kind in result.values()),
-        'wrong': sum(kind['wrong'] for kind in result.values()),
-        'kinds': result,
-    })  # fmt: skip
+            write(options.json, {
+                'files': sum(kind['files'] for kind in result.values()),
+                'wrong': sum(kind['wrong'] for kind in result.values()),
+                'kinds': result,
+            })  # fmt: skip
 
 
 if __name__ == '__main__':

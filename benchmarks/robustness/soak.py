@@ -2,8 +2,10 @@
 A long flight at full speed with everything on: what grows, and whether it stays as fast.
 
 The node flies an x500 in turbulence in lockstep with its controller, records every topic, and a
-third process, this one, listens. Every 2 s of wall time the memory, file handles and threads of
-node, log writer and controller are noted. The slope of memory is a line through the second half.
+third process, this one, listens. Every 2 s of wall time the memory, file handles, threads and
+processor time of node, log writer and controller are noted. The slope of memory is a line through
+the second half. The pace at start and end is that of the clock, and depends on what else the
+machine does; the processor time of a simulated second does so much less.
 ``--wall`` says how long it flies [min]; at least an hour of simulated time is wanted.
 """
 
@@ -30,14 +32,18 @@ WALL, QUICK = 30.0, 0.5
 #: Wall time before the first numbers count, and between two looks [s].
 WARM_UP, PERIOD = 10.0, 2.0
 PAGE_MIB = os.sysconf('SC_PAGE_SIZE') / 2**20
+TICK = 1 / os.sysconf('SC_CLK_TCK')
 
 
-def held(pid: int) -> tuple[float, int, int]:
-    """Return what a process holds: resident memory [MiB], file handles, threads."""
+def held(pid: int) -> tuple[float, int, int, float]:
+    """Return a process's memory [MiB], file handles, threads, and time so far [s]."""
     folder = Path(f'/proc/{pid}')
     pages = int((folder / 'statm').read_text().split()[1])
     handles = len(list((folder / 'fd').iterdir()))
-    return pages * PAGE_MIB, handles, len(list((folder / 'task').iterdir()))
+    # fields 14 and 15 of proc(5), behind the name, in brackets, which may hold anything
+    user, system = (folder / 'stat').read_text().rpartition(')')[2].split()[11:13]
+    worked = (int(user) + int(system)) * TICK
+    return pages * PAGE_MIB, handles, len(list((folder / 'task').iterdir())), worked
 
 
 def writer_of(pid: int) -> int:
@@ -93,7 +99,9 @@ def fly(folder: Path, wall: float) -> dict[str, Any]:
     return {**summary(np.array(times), held_by), 'exit_codes': codes, 'log': about(log)}
 
 
-def summary(times: np.ndarray, held_by: dict[str, list[tuple[float, int, int]]]) -> dict[str, Any]:
+def summary(
+    times: np.ndarray, held_by: dict[str, list[tuple[float, int, int, float]]]
+) -> dict[str, Any]:
     """Return speed at start and end, and what each process held."""
     wall, simulated = times.T
     part = max(1, len(wall) // 10)
@@ -101,10 +109,19 @@ def summary(times: np.ndarray, held_by: dict[str, list[tuple[float, int, int]]])
     def factor(first: int, last: int) -> float:
         return float((simulated[last] - simulated[first]) / (wall[last] - wall[first]))
 
+    # the first and the last tenth of the simulated time
+    span = simulated[-1] - simulated[0]
+    begin = int(np.searchsorted(simulated, simulated[0] + span / 10))
+    rest = int(np.searchsorted(simulated, simulated[-1] - span / 10)) - 1
+
+    def cost(worked: list[float], first: int, last: int) -> float:
+        return float((worked[last] - worked[first]) / (simulated[last] - simulated[first]))
+
     processes = {}
     half = len(wall) // 2
     for name, samples in held_by.items():
-        memory, handles, threads = map(list, zip(*samples, strict=True))
+        memory, handles, threads, worked = map(list, zip(*samples, strict=True))
+        early, late = cost(worked, 0, begin), cost(worked, rest, -1)
         slope = np.polyfit(simulated[half:] / 3600, memory[half:], 1)[0]
         processes[name] = {
             'resident_mib': [round(memory[0], 1), round(memory[-1], 1)],
@@ -113,6 +130,8 @@ def summary(times: np.ndarray, held_by: dict[str, list[tuple[float, int, int]]])
             'handles': [handles[0], handles[-1]],
             'threads': [threads[0], threads[-1]],
             'more_handles_and_threads': handles[-1] - handles[0] + threads[-1] - threads[0],
+            'processor_ms_per_simulated_s': [round(early * 1e3, 2), round(late * 1e3, 2)],
+            'cost_at_the_end_over_the_start': round(late / early, 3),
         }
     start, end = factor(0, part), factor(-1 - part, -1)
     return {

@@ -1,6 +1,5 @@
 """Runs ``python -m fluid_sim_ros.cli``."""
 
-from fluid_sim_ros.cli import main
-from fluid_sim_ros.interruption import leave
+from fluid_sim_ros.cli import program
 
-leave(main())
+program()

@@ -11,7 +11,8 @@ A process is in one of these states; the first signal does what the state says:
 * settled: the result is out, so nothing happens.
 
 A second signal within 2 s is the same wish; a later one ends the process at once. So does an end
-that takes longer than 10 s after ``Interrupted`` was raised. Only the main thread gets signals.
+that takes longer than 8 s after the first, or after the last ``held`` block: also one for which a
+library in the main thread would have to return. Only the main thread gets signals.
 """
 
 from fluid_sim_ros.interruption.handler import (
@@ -19,8 +20,10 @@ from fluid_sim_ros.interruption.handler import (
     SAME_WISH,
     Interrupted,
     end_at_once,
+    end_late,
     exit_code,
 )
+from fluid_sim_ros.interruption.late_end import LateEnd
 from fluid_sim_ros.interruption.program import (
     begin,
     begun,
@@ -33,6 +36,6 @@ from fluid_sim_ros.interruption.program import (
 )
 
 __all__ = [
-    'NUMBERS', 'SAME_WISH', 'Interrupted', 'begin', 'begun', 'end_at_once', 'exit_code', 'held',
-    'interrupted_by', 'leave', 'owns', 'settle', 'stopped_by_signals',
+    'NUMBERS', 'SAME_WISH', 'Interrupted', 'LateEnd', 'begin', 'begun', 'end_at_once', 'end_late',
+    'exit_code', 'held', 'interrupted_by', 'leave', 'owns', 'settle', 'stopped_by_signals',
 ]  # fmt: skip

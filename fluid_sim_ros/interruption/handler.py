@@ -7,14 +7,15 @@ from collections.abc import Callable
 from types import FrameType
 from typing import NoReturn
 
+from fluid_sim_ros.interruption import late_end
+from fluid_sim_ros.interruption.late_end import LateEnd
+
 NUMBERS = (signal.SIGINT, signal.SIGTERM)
 #: A second signal within this time is the same wish: a terminal signals the whole process group,
 #: and ``ros2 launch`` then signals each of its processes once more [s].
 SAME_WISH = 2.0
 #: Wait where an exception would be lost or leave something half made [s].
 _PAUSE = 0.02
-#: Longest time from ``Interrupted`` to the end of the process [s].
-_LONGEST_END = 10.0
 #: In these an exception is shown and forgotten, a child is lost, or a module stays half made.
 _DELICATE = ('__del__', 'Popen.__init__', '_find_and_load')
 _IMPORT = ('_find_and_load',)
@@ -161,8 +162,6 @@ class Signals:
             self.again()
         else:
             self.waits = False
-            signal.signal(signal.SIGALRM, self._on_late_end)
-            signal.setitimer(signal.ITIMER_REAL, _LONGEST_END)
             raise Interrupted(self.number)
 
     def again(self) -> None:
@@ -183,9 +182,25 @@ class Signals:
         self.number, self._since, self.waits = number, now, True
         self.act(frame)
 
-    def _on_late_end(self, number: int, frame: FrameType | None) -> None:
-        line = f'{self.program}: ended at once, since an end in order took over {_LONGEST_END:g} s'
-        end_at_once(line, exit_code(self.number))
+    def watch(self) -> None:
+        """Have an end that takes too long cut, whatever the main thread does."""
+        LateEnd(NUMBERS, lambda: bool(self.holds), lambda number: end_late(self.program, number))
+
+
+def end_late(program: str, number: int) -> NoReturn:
+    """
+    End a process that takes too long to end in order.
+
+    Parameters
+    ----------
+    program
+        What the line begins with.
+    number
+        Of the signal.
+
+    """
+    line = f'{program}: ended at once, since an end in order took over {late_end.LONGEST_END:g} s'
+    end_at_once(line, exit_code(number))
 
 
 def exit_code(number: int) -> int:

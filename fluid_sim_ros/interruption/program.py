@@ -16,6 +16,7 @@ from fluid_sim_ros.interruption.handler import (
     Signals,
     exit_code,
 )
+from fluid_sim_ros.interruption.late_end import end_by
 
 #: Of this process, where it is one of our programs.
 _present: Signals | None = None
@@ -35,6 +36,7 @@ def begin(program: str) -> None:
     if _present is not None or threading.current_thread() is not threading.main_thread():
         return
     _present = Signals(program, loading=True)
+    _present.watch()
     before = sys.unraisablehook
 
     def hook(seen: Any) -> None:
@@ -77,8 +79,9 @@ def leave(code: int) -> NoReturn:
     End the process; a signal that comes on the way out changes nothing.
 
     Python gives signals their default effect while it shuts down, so the second one of a Ctrl-C
-    would make the end look like a crash. An interrupted program leaves without the rest of that
-    shutdown, in which a library once waited without end.
+    would make the end look like a crash. A program of ours leaves without the rest of that
+    shutdown, in which a library once waited without end; and, where an exit function of a library
+    does, after a while.
 
     Parameters
     ----------
@@ -88,13 +91,14 @@ def leave(code: int) -> NoReturn:
     """
     for number in NUMBERS:
         signal.signal(number, signal.SIG_IGN)
-    if interrupted_by():
-        atexit._run_exitfuncs()
+    end_by(code)
+    if _present is None:  # a node: the middleware ends by its own
+        sys.exit(code)
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):
-            sys.stdout.flush()
-            sys.stderr.flush()
-        os._exit(code)
-    sys.exit(code)
+            stream.flush()
+    os._exit(code)
 
 
 @contextmanager

@@ -18,16 +18,15 @@ from test.support.recorded_flights import record_flight
 COMMAND = (
     'import os, sys; from fluid_sim_ros.interruption import begin; begin("fluid_sim"); '
     'os.write(1, b"loading\\n"); sys.argv[0] = "/bin/fluid_sim"; '
-    'from fluid_sim_ros.cli import main; from fluid_sim_ros.interruption import leave; '
-    'leave(main())'
+    'from fluid_sim_ros.cli import program; program()'
 )
 NODE = (
     'import os; from fluid_sim_ros.ros.executables import fluid_sim_node; '
     'from fluid_sim_ros.ros.process.signals import end_quietly; end_quietly(); '
     'os.write(1, b"loading\\n"); fluid_sim_node()'
 )
-#: Longest time that a program, and all that it has started, may take to end on a busy machine [s].
-PATIENCE = 30.0
+#: Longest time that a program, and all that it has started, may take to end [s].
+PATIENCE = 10.0
 #: What a kill -9 may cost [s].
 MOST_LOST = 1.0
 _MARK = 'FLUID_SIM_TEST_KILL'

@@ -1,6 +1,6 @@
 """A log as a film: MuJoCo's renderer on the recorded poses, with force arrows."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -120,7 +120,9 @@ def render(log: Log, out: Path, options: FilmOptions, progress: Callable[[float]
     return count
 
 
-def _drawn(log: Log, options: FilmOptions, still: bool) -> Iterator[tuple[float, Picture]]:
+def _drawn(
+    log: Log, options: FilmOptions, still: bool
+) -> Generator[tuple[float, Picture], None, None]:
     """Yield the pictures, each with the share that is done."""
     with reading(log.path):
         stage = _Stage(log, options)

@@ -6,7 +6,14 @@ import time
 from types import FrameType
 from typing import Protocol
 
-from fluid_sim_ros.interruption import NUMBERS, SAME_WISH, end_at_once, exit_code
+from fluid_sim_ros.interruption import (
+    NUMBERS,
+    SAME_WISH,
+    LateEnd,
+    end_at_once,
+    end_late,
+    exit_code,
+)
 
 
 def end_quietly() -> None:
@@ -31,7 +38,8 @@ class EndSignals:
     Takes SIGINT and SIGTERM from when it is made.
 
     The first signal ends the loop in good order; one that comes more than 2 s later ends the
-    process at once, since good order seems to take too long for somebody.
+    process at once, since good order seems to take too long for somebody. So does an end that
+    takes longer than 8 s.
 
     Parameters
     ----------
@@ -52,6 +60,7 @@ class EndSignals:
         self.came = False
         for number in NUMBERS:
             signal.signal(number, self._on_signal)
+        LateEnd(NUMBERS, lambda: False, lambda number: end_late(name, number))
 
     def end(self, target: Ending) -> None:
         """
