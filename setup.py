@@ -249,7 +249,7 @@ setup(
     },
     entry_points={
         'console_scripts': [
-            'fluid_sim = fluid_sim_ros.cli:program',
+            'fluid_sim = fluid_sim_ros.cli:main',
             'fluid_sim_node = fluid_sim_ros.ros.executables:fluid_sim_node',
             'plane_controller = fluid_sim_ros.ros.executables:plane_controller',
             'quad_controller = fluid_sim_ros.ros.executables:quad_controller',

@@ -1,5 +1,6 @@
 """Runs ``python -m fluid_sim_ros.cli``."""
 
-from fluid_sim_ros.cli import program
+from fluid_sim_ros.cli import main
+from fluid_sim_ros.interruption import leave
 
-program()
+leave(main())

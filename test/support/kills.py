@@ -18,7 +18,7 @@ from test.support.recorded_flights import record_flight
 COMMAND = (
     'import os, sys; from fluid_sim_ros.interruption import begin; begin("fluid_sim"); '
     'os.write(1, b"loading\\n"); sys.argv[0] = "/bin/fluid_sim"; '
-    'from fluid_sim_ros.cli import program; program()'
+    'from fluid_sim_ros.cli import main; sys.exit(main())'
 )
 NODE = (
     'import os; from fluid_sim_ros.ros.executables import fluid_sim_node; '
