@@ -2,8 +2,6 @@
 
 import random
 import signal
-import subprocess
-import sys
 import textwrap
 
 import pytest
@@ -11,6 +9,7 @@ import pytest
 from fluid_sim_ros.recording.reader import open_log
 from test.support.kills import Killer
 from test.support.recorded_flights import record_flight
+from test.support.signalled import program, run_code
 
 INT, TERM, KILL = signal.SIGINT, signal.SIGTERM, signal.SIGKILL
 
@@ -27,13 +26,6 @@ AT_IMPORT = """
 """
 COMMAND = 'from fluid_sim_ros.cli import main; sys.exit(main())'
 NODE = 'from fluid_sim_ros.ros.executables import fluid_sim_node; fluid_sim_node()'
-
-
-def run_code(code):
-    return subprocess.run(
-        [sys.executable, '-c', textwrap.dedent(code)], capture_output=True, text=True, timeout=60,
-        check=False,
-    )  # fmt: skip
 
 
 def signalled(module, number, start, *words):
@@ -105,28 +97,14 @@ def test_what_is_run_with_m_takes_signals_from_its_first_line(tmp_path, module, 
 def test_signals_at_seeded_moments_of_start_flight_and_end(tmp_path):
     killer, chance = Killer(tmp_path), random.Random(15)
     kills = []
-    for program, count in (('run', 4), ('node', 3), ('resimulate', 1), ('sweep', 1)):
+    for name, count in (('run', 4), ('node', 3), ('resimulate', 1), ('sweep', 1)):
         for i in range(count):
             number = (INT, TERM, KILL)[i % 3]
-            kills.append(killer.kill(program, number, chance.uniform(0.0, 1.6)))
+            kills.append(killer.kill(name, number, chance.uniform(0.0, 1.6)))
     assert [kill for kill in kills if kill.wrong] == []
 
 
 # ---- the states of a program ---------------------------------------------------------------
-
-PROGRAM = """
-    import os, signal, sys, time
-    from fluid_sim_ros.interruption import *
-    from fluid_sim_ros.interruption import handler, late_end, program
-    def kill(number=signal.SIGTERM):
-        os.kill(os.getpid(), number)
-    begin('x')
-    begun()
-"""
-
-
-def program(code):
-    return run_code(textwrap.dedent(PROGRAM) + textwrap.dedent(code))
 
 
 def test_a_held_block_is_finished_first():
@@ -190,96 +168,6 @@ def test_a_second_signal_at_once_is_the_same_wish_and_a_later_one_ends_it():
     """)
     line = 'x: ended at once by a second signal; a log may lack its end\n'
     assert (done.returncode, done.stdout, done.stderr) == (130, '', line)
-
-
-def test_an_end_that_takes_too_long_is_cut():
-    done = program("""
-        late_end.LONGEST_END = 0.1
-        try:
-            kill()
-        finally:
-            time.sleep(20)
-    """)
-    line = 'x: ended at once, since an end in order took over 0.1 s\n'
-    assert (done.returncode, done.stderr) == (143, line)
-
-
-LIBRARY = "import hashlib; hashlib.pbkdf2_hmac('sha256', b'x', b'y', 2**31 - 1)"  # for an hour
-
-
-@pytest.mark.parametrize(
-    'takes',
-    [
-        'begin("x"); begun()',
-        'begin("x")',
-        'from fluid_sim_ros.ros.process.signals import EndSignals; EndSignals("x")',
-    ],
-)
-def test_a_signal_while_a_library_works_in_the_main_thread_ends_it(takes):
-    """Python's own handlers would run when the library returns."""
-    done = run_code(f"""
-        import os, signal, threading
-        from fluid_sim_ros.interruption import *
-        from fluid_sim_ros.interruption import late_end
-        late_end.LONGEST_END = 0.1
-        {takes}
-        threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGTERM)).start()
-        {LIBRARY}
-    """)
-    assert done.returncode == 143
-    assert done.stderr == 'x: ended at once, since an end in order took over 0.1 s\n'
-
-
-def test_a_block_that_is_held_is_not_cut():
-    done = program("""
-        late_end.LONGEST_END = 0.2
-        try:
-            with held():
-                kill()
-                time.sleep(0.5)
-                print('finished')
-        except Interrupted as error:
-            leave(error.code)
-    """)
-    assert (done.returncode, done.stdout, done.stderr) == (143, 'finished\n', '')
-
-
-@pytest.mark.parametrize('start', ['', 'program._present = None\n'])  # a command, a node
-def test_a_program_whose_exit_function_waits_for_ever_leaves_with_its_code(start):
-    done = program(f"""
-        import atexit
-        late_end.LONGEST_END = 0.1
-        atexit.register(time.sleep, 20)
-        {start}
-        settle()
-        leave(3)
-    """)
-    assert (done.returncode, done.stdout, done.stderr) == (3, '', '')
-
-
-def test_a_program_leaves_without_waiting_for_its_threads():
-    done = program("""
-        import threading
-        threading.Thread(target=time.sleep, args=(20,)).start()
-        print('told')
-        settle()
-        leave(0)
-    """)
-    assert (done.returncode, done.stdout, done.stderr) == (0, 'told\n', '')
-
-
-def test_an_interrupted_program_leaves_without_waiting_for_its_threads():
-    done = program("""
-        import atexit, threading
-        threading.Thread(target=time.sleep, args=(20,)).start()
-        atexit.register(print, 'exit function')
-        try:
-            kill()
-        except Interrupted as error:
-            print('told')
-            leave(error.code)
-    """)
-    assert (done.returncode, done.stdout, done.stderr) == (143, 'told\nexit function\n', '')
 
 
 def test_a_signal_after_the_result_changes_nothing():
