@@ -45,7 +45,7 @@ class Posed:
         self.row = simulation.observe(forces=True)[0]
         rows, self._random = simulation.observe(forces=True), np.random.default_rng(5)
         simulation.observe = lambda forces, wrenches=True: rows
-        simulation._engine_step = lambda n: n
+        simulation._engine_step = lambda n, step: n
 
     def pose(self):
         """Go a step on, to a state from slow to far out."""
