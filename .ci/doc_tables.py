@@ -74,6 +74,11 @@ def step_profile() -> str:
     return _table_of('step_profile')
 
 
+def step_stages() -> str:
+    """Return the table of what of MuJoCo's step each scene takes, by the benchmark's result."""
+    return _table_of('step_stages')
+
+
 def growth() -> str:
     """Return the table of what more of something costs, by the benchmark's result."""
     return _table_of('growth')
@@ -128,6 +133,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'validation': ('doc/validation.md', validation),
     'questions': ('doc/development.md', site_pages.questions),
     'step profile': ('doc/speed.md', step_profile),
+    'step stages': ('doc/speed.md', step_stages),
     'growth': ('doc/speed.md', growth),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),

@@ -160,3 +160,15 @@ def test_a_wrench_in_blocks_is_that_in_single_steps_also_retimed():
         assert simulation.data.qfrc_applied.any()
         assert simulation.model.opt.wind.tolist() == [1, 2, 0]
     assert len(set(ends)) == 1
+
+
+@pytest.mark.parametrize('integrator', ['RK4', 'implicitfast'])
+def test_a_beating_fly_that_falls_to_the_ground_and_grazes_it(integrator):
+    simulation = Simulation('fly_wing', integrator=integrator)
+    simulation.data.qpos[2], simulation.data.qvel[:3] = 0.1, (0.3, 0, -2.0)
+    beside, rng, contacts = InPython(simulation), np.random.default_rng(6), []
+    for _ in range(30):
+        beside.step(int(rng.integers(1, 60)))
+        contacts.append(beside.data.ncon > 0)
+    assert any(contacts)
+    assert not all(contacts)
