@@ -268,8 +268,14 @@ def _actuator_ids(
     actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
     ids = [mujoco.mj_name2id(model, actuator, prefix + name) for name in names]
     for name, identity in zip(names, ids, strict=True):
+        if not name:
+            raise ConfigError(
+                f'{where}: one of its actuators has no name in the model, by which a command '
+                'could choose it; give it one: name="..."'
+            )
         if identity < 0:
-            has = listed(_own(prefix, (model.actuator(i).name for i in range(model.nu))))
+            names = _own(prefix, (model.actuator(i).name for i in range(model.nu)))
+            has = listed(filter(None, names))
             raise ConfigError(f"{where}: actuator '{name}' is not in the model; it has: {has}")
     if len(set(ids)) != len(ids):
         raise ConfigError(f'{where}: an actuator stands twice in: {listed(names)}')

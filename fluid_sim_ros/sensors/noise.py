@@ -105,8 +105,8 @@ class Errors:
         for i, (added, axis) in enumerate(zip(self._added[place], self.axes, strict=True)):
             quantum, low, high, below, above = axis
             number = numbers[i] + added
-            if quantum and -math.inf < number < math.inf:
-                number = round(number / quantum) * quantum
+            if quantum and -math.inf < (whole := number / quantum) < math.inf:
+                number = round(whole) * quantum
             if number < low or number > high:
                 number = below if number < low else above
                 beyond += 1

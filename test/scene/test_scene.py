@@ -130,6 +130,16 @@ def test_a_name_that_the_model_lacks_is_named_with_those_it_has(write_scene, tex
         Scene.load(write_scene(f'model: boat.xml\n{text}')).compile()
 
 
+def test_an_actuator_without_a_name_is_told_of(tmp_path):
+    path = tmp_path / 'a.xml'
+    path.write_text(
+        '<mujoco><worldbody><body name="b"><freejoint/><geom size=".1"/><site name="s"/></body>'
+        '</worldbody><actuator><motor site="s" gear="1 0 0 0 0 0"/></actuator></mujoco>'
+    )
+    with pytest.raises(ConfigError, match=r"vehicle 'b': one of its actuators has no name"):
+        Scene.load(path).compile()
+
+
 def test_a_model_without_a_free_body_says_so(tmp_path):
     path = tmp_path / 'fixed.xml'
     path.write_text(

@@ -109,6 +109,12 @@ def test_one_quantum_of_dither():
     np.testing.assert_allclose(counts / 20_000, [0.25, 0.5, 0.25], atol=0.02)
 
 
+def test_a_resolution_of_next_to_nothing_changes_nothing():
+    errors = Errors([(Channel(resolution=1e-310), 1)], RATE, 0, 'x')
+    values = np.array([1013.25])
+    assert errors.apply(0, values) == 0 and values[0] == 1013.25
+
+
 def test_dither_without_resolution_never_repeats():
     readings = sequence(20_000, truth=0.5, dither=(1e-3,))[0][:, 0]
     assert len(np.unique(readings)) == 20_000

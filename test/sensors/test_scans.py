@@ -139,3 +139,7 @@ def test_the_message_holds_the_fan(brick):
 def test_wrong_input_is_named(brick, kind, sensor, words):
     with pytest.raises(Exception, match=words):
         updated(brick(**{kind: {'rate': 500, **sensor}}))
+
+
+def test_a_loss_that_the_first_metre_takes_reaches_nothing():
+    assert audible_range(0.01, 2e5, 10.0, 35.0, 5.0) == 0.0  # 0.1 dB there and back

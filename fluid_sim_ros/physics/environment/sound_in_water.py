@@ -62,7 +62,7 @@ def audible_range(
     Returns
     -------
     float
-        [m], 1 or more; 100 km at most.
+        [m], 1 or more, 100 km at most; 0 where it is lost within the first metre.
 
     """
     rate = absorption(frequency, temperature, salinity, depth)
@@ -72,6 +72,8 @@ def audible_range(
 
     if excess(_FARTHEST) < 0.0:
         return _FARTHEST
+    if excess(1.0) >= 0.0:
+        return 0.0
     from scipy.optimize import brentq  # late: SciPy takes 30 MiB wherever a log is opened
 
     return float(brentq(excess, 1.0, _FARTHEST, xtol=1e-9))

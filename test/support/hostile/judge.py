@@ -17,8 +17,8 @@ from fluid_sim_ros.recording.model import trial
 
 #: Content of a file that lies outside.
 _SECRET = 'nobody-has-asked-for-this'
-#: What is allowed: processor time [s], wall time on a busy machine [s], and memory beyond four
-#: times the file [bytes].
+#: What is allowed: processor time [s], wall time on a busy machine, without that of waiting for a
+#: processor [s], and memory beyond four times the file [bytes].
 MOST_SECONDS, MOST_WALL, MOST_BYTES = 10.0, 60.0, 256 << 20
 
 
@@ -64,7 +64,7 @@ def judged(action: Callable[[], object], size: int) -> Verdict:
     """
     before = _reset_peak()
     said = io.StringIO()
-    begin, worked = time.monotonic(), _worked()
+    begin, worked, queued = time.monotonic(), _worked(), _queued()
     outcome, line = 'read', ''
     try:
         with redirect_stderr(said), redirect_stdout(said):
@@ -77,7 +77,8 @@ def judged(action: Callable[[], object], size: int) -> Verdict:
         outcome, line = 'refused', str(error)
     except Exception as error:  # noqa: BLE001  that is what is looked for
         outcome, line = 'traceback', f'{type(error).__name__}: {error}'[:500]
-    wall, seconds, memory = time.monotonic() - begin, _worked() - worked, _peak() - before
+    wall = time.monotonic() - begin - (_queued() - queued)
+    seconds, memory = _worked() - worked, _peak() - before
     if outcome == 'refused' and (not line.isprintable() or len(line) > 5000):
         outcome, line = 'unprintable line', repr(line[:300])
     if seconds > MOST_SECONDS or wall > MOST_WALL:
@@ -90,6 +91,12 @@ def judged(action: Callable[[], object], size: int) -> Verdict:
 def _worked() -> float:
     """Return the processor time of this process and of those that it started and that ended."""
     return sum(os.times()[:4])
+
+
+def _queued() -> float:
+    """Return how long this thread has waited for a processor [s]."""
+    # Documentation/scheduler/sched-stats.rst: time on a processor, time in its queue [ns]
+    return int(Path('/proc/thread-self/schedstat').read_text(encoding='ascii').split()[1]) * 1e-9
 
 
 def _reset_peak() -> int:

@@ -55,18 +55,19 @@ def _expanded(path: Path, packages: list[Path]) -> str:
             raise ValueError(f"package '{name}' is not found; give --package-path")
         return str(folder)
 
-    parse, load = xacro.parse, xacro.load_yaml
+    parse = xacro.parse
+
+    def checked_open(name: str, *words: Any, **options: Any) -> Any:
+        checked(name)
+        return open(name, *words, **options)  # noqa: PTH123  as xacro calls it
 
     def checked_parse(inp: Any, filename: str | None = None) -> Any:
         if inp is None and filename is not None:
             checked(filename)
         return parse(inp, filename)
 
-    def checked_load(filename: str) -> Any:
-        checked(filename)
-        return load(filename)
-
-    xacro.parse, xacro.load_yaml = checked_parse, checked_load
+    # load_yaml, which expressions have by two names, opens its file by what is open there
+    xacro.parse, xacro.open = checked_parse, checked_open
     substitution_args._eval_find = find
     document = xacro.process_file(str(path))
     return str(document.documentElement.toxml())
