@@ -7,7 +7,7 @@ import numpy as np
 from fluid_sim_ros.errors import listed, printable
 from fluid_sim_ros.flights.flight import ACTUATORS, QUANTITIES, Flight, FlightError, RawLog, Signal
 from fluid_sim_ros.flights.mapping import FlightMap, SignalMap
-from fluid_sim_ros.flights.tidy import find_gaps, find_outliers, usable
+from fluid_sim_ros.flights.tidy import find_gaps, find_outliers, missing_share, usable
 from fluid_sim_ros.flights.units import (
     BODY,
     UNITS,
@@ -24,9 +24,11 @@ from fluid_sim_ros.schema.limits import check_limit
 _MOST_BACK = 0.1
 #: Quaternions of a log are this near to length 1; others are something else.
 _UNIT_LENGTH = 0.05
+#: Fewer missing samples need no word [-].
+_MISSING = 0.02
 
 
-def flight_of(raw: RawLog, mapping: FlightMap, *, strict: bool = False) -> Flight:
+def flight_of(raw: RawLog, mapping: FlightMap, named: frozenset[str] = frozenset()) -> Flight:
     """
     Return streams as a flight.
 
@@ -36,8 +38,8 @@ def flight_of(raw: RawLog, mapping: FlightMap, *, strict: bool = False) -> Fligh
         What a reader found.
     mapping
         Which columns are which quantity.
-    strict
-        Whether a quantity that the mapping names must be there.
+    named
+        Quantities that must be there: the user named them.
 
     Returns
     -------
@@ -53,16 +55,22 @@ def flight_of(raw: RawLog, mapping: FlightMap, *, strict: bool = False) -> Fligh
     found: dict[str, Signal] = {}
     notes: list[str] = []
     for quantity, places in mapping.signals.items():
-        place = next((each for each in places if _has(raw, each)), None)
+        place = next((each for each in places if _has(raw, each, mapping.vehicle)), None)
         if place is None:
-            if strict:
-                raise FlightError(_lacks(raw, quantity, places[0]))
+            if quantity in named and places:
+                raise FlightError(_lacks(raw, quantity, places[0], mapping.vehicle))
             continue
         signal = _signal(raw, quantity, place, mapping, notes)
         if len(signal.times) > 1:
             found[quantity] = signal
         else:
-            notes.append(f'{quantity}: {signal.source} has {len(signal.times)} usable samples')
+            count, dropped = len(signal.times), sum(signal.dropped.values())
+            notes.append(f'{quantity}: {count} of {count + dropped} samples can be used')
+    notes = _together(notes)
+    if not found and notes:
+        raise FlightError(f'{raw.path}: too few samples: {"; ".join(notes)}')
+    if not any(len(stream.times) for stream in raw.streams.values()):
+        raise FlightError(f'{raw.path}: has no samples')
     if not found:
         raise FlightError(
             f'{raw.path}: none of the quantities is in it; name columns in a mapping '
@@ -77,6 +85,15 @@ def flight_of(raw: RawLog, mapping: FlightMap, *, strict: bool = False) -> Fligh
         turned = rotations(_unit(found['attitude'].between(velocity.times))).apply(velocity.values)
         found['velocity'] = _with(velocity, turned)
     return Flight(raw, found, begin, mapping.vehicle, tuple(notes))
+
+
+def _together(notes: list[str]) -> list[str]:
+    """Return notes with those of several quantities that say the same as one."""
+    same: dict[str, list[str]] = {}
+    for note in notes:
+        quantity, _, text = note.partition(': ')
+        same.setdefault(text, []).append(quantity)
+    return [f'{", ".join(quantities)}: {text}' for text, quantities in same.items()]
 
 
 def _unit(wxyz: Array) -> Array:
@@ -94,18 +111,35 @@ def _shifted(signal: Signal, begin: float) -> Signal:
     return Signal(**{**signal.__dict__, 'times': times, 'gaps': gaps})
 
 
-def _stream(raw: RawLog, name: str) -> str:
-    """Return the name of a stream; ``type:NAME``, ``*END``: the first of that type, or end."""
+def _streams(raw: RawLog, name: str, vehicle: str) -> list[str]:
+    """Return the streams of a type (``type:NAME``) or end (``*END``), the vehicle's own first."""
     if name.startswith('*'):
-        return next((t for t in raw.streams if t.endswith(name[1:])), '')
-    if not name.startswith('type:'):
-        return name
-    kind = name.removeprefix('type:')
-    return next((t for t in raw.streams if raw.about.get(f'type of {t}') == kind), '')
+        found = [t for t in raw.streams if t.endswith(name[1:])]
+    elif name.startswith('type:'):
+        kind = name.removeprefix('type:')
+        found = [t for t in raw.streams if raw.about.get(f'type of {t}') == kind]
+    else:
+        return [name]
+    return [t for t in found if vehicle and f'/{vehicle}/' in t] or found
 
 
-def _columns(raw: RawLog, place: SignalMap) -> list[str]:
-    columns = raw.streams[_stream(raw, place.stream)].columns
+def _stream(raw: RawLog, name: str, vehicle: str) -> str:
+    return next(iter(_streams(raw, name, vehicle)), '')
+
+
+def _of_several(raw: RawLog, name: str, vehicle: str) -> str:
+    """Return what is said where more than one stream would do."""
+    found = _streams(raw, name, vehicle)
+    if len(found) < 2:
+        return ''
+    return (
+        f'{len(found)} topics would do ({listed(found)}): {printable(found[0])} is taken; if it '
+        'is that of another vehicle, say vehicle: NAME, or the stream, in the mapping'
+    )
+
+
+def _columns(raw: RawLog, place: SignalMap, vehicle: str) -> list[str]:
+    columns = raw.streams[_stream(raw, place.stream, vehicle)].columns
     names: list[str] = []
     for name in place.columns:
         if '*' in name:
@@ -116,16 +150,16 @@ def _columns(raw: RawLog, place: SignalMap) -> list[str]:
     return names
 
 
-def _has(raw: RawLog, place: SignalMap) -> bool:
-    stream = _stream(raw, place.stream)
+def _has(raw: RawLog, place: SignalMap, vehicle: str) -> bool:
+    stream = _stream(raw, place.stream, vehicle)
     if stream not in raw.streams or not len(raw.streams[stream].times):
         return False
-    names = _columns(raw, place)
+    names = _columns(raw, place, vehicle)
     return bool(names) and all(name in raw.streams[stream].columns for name in names)
 
 
-def _lacks(raw: RawLog, quantity: str, place: SignalMap) -> str:
-    stream = _stream(raw, place.stream)
+def _lacks(raw: RawLog, quantity: str, place: SignalMap, vehicle: str) -> str:
+    stream = _stream(raw, place.stream, vehicle)
     if stream not in raw.streams:
         return (
             f"{raw.path}: {quantity}: stream '{printable(place.stream)}' is not in it; "
@@ -142,8 +176,10 @@ def _lacks(raw: RawLog, quantity: str, place: SignalMap) -> str:
 def _signal(
     raw: RawLog, quantity: str, place: SignalMap, mapping: FlightMap, notes: list[str]
 ) -> Signal:
-    name = _stream(raw, place.stream)
-    stream, names = raw.streams[name], _columns(raw, place)
+    name = _stream(raw, place.stream, mapping.vehicle)
+    stream, names = raw.streams[name], _columns(raw, place, mapping.vehicle)
+    several = _of_several(raw, place.stream, mapping.vehicle)
+    notes += [f'{quantity}: {several}'] * bool(several)
     values = np.stack([stream.columns[column] for column in names], axis=1)
     if quantity in ACTUATORS:
         chosen, thrusters = _thrusters(values, names, mapping)
@@ -162,6 +198,9 @@ def _signal(
     source = f'{name}: {columns_of(names)}'
     notes += [f'{quantity}: {n} samples of {name} {why}: left out' for why, n in dropped.items()]
     times, values = times[used], values[used]
+    lost = 0.0 if place.command else missing_share(times)
+    if lost > _MISSING:
+        notes.append(f'{quantity}: {100 * lost:.0f} % of the samples of {name} are missing')
     values, stated = _converted(raw, quantity, place, values)
     outliers = find_outliers(quantity, values)
     return Signal(

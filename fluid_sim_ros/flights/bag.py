@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fluid_sim_ros.errors import needed_for, printable
+from fluid_sim_ros.errors import FluidSimError, needed_for, printable
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
 from fluid_sim_ros.flights.own_log import run_of, with_schedule
 from fluid_sim_ros.schema.data_file import open_data
@@ -18,7 +18,8 @@ _LONGEST = 32
 _MOST_COLUMNS = 400
 #: Messages of these types hold nothing of a flight.
 _SKIPPED = ('MarkerArray', 'Image', 'CompressedImage', 'PointCloud2', 'String', 'DiagnosticArray')
-_FAULTS = (struct.error, ValueError, KeyError, OSError, EOFError)
+#: First bytes of an MCAP file, and how many of them are read for who wrote it.
+_MAGIC, _HEAD = b'\x89MCAP0\r\n', 1024
 #: (topic, type, time of the log [ns], message)
 _Message = tuple[str, str, int, Any]
 
@@ -46,10 +47,8 @@ def read_bag(path: Path) -> RawLog:
 
     """
     with needed_for('a ROS bag'):
-        from mcap.exceptions import McapError
-        from rosbags.highlevel import AnyReaderError
-        from rosbags.serde import SerdeError
-        from rosbags.typesys import TypesysError
+        import mcap.reader  # noqa: F401
+        import rosbags.highlevel  # noqa: F401  one line where either is missing
 
     files = sorted(path.glob('*.mcap')) if path.is_dir() else [path]
     bag = path if path.is_dir() else path.parent
@@ -77,11 +76,17 @@ def read_bag(path: Path) -> RawLog:
             taken = run is not None and '/cmd/' in topic
             time = stamp if has_stamp and not taken else log_ns * 1e-9
             rows[topic].append((time, *(found.get(name, np.nan) for name in names[topic])))
-    except (McapError, AnyReaderError, SerdeError, TypesysError, *_FAULTS) as error:
+    except FluidSimError:
+        raise
+    except Exception as error:  # noqa: BLE001  what decompresses a damaged chunk raises anything
         reason = printable(' '.join(str(error).split()) or type(error).__name__)
         if not count:
-            raise FlightError(f'{path}: no bag that rosbags reads ({reason})') from None
-        faults.append(f'damaged: {reason}; what is before is read')
+            hint = '' if in_mcap or path.is_dir() else (
+                '; a .db3 is read with the metadata.yaml beside it: give the folder of the bag'
+            )  # fmt: skip
+            raise FlightError(f'{path}: no bag that rosbags reads ({reason}){hint}') from None
+        mend = '; fluid_sim repair makes a log of ours whole' if in_mcap else ''
+        faults.append(f'damaged: {reason}; what is before is read{mend}')
     streams = {}
     for topic, numbers in rows.items():
         table = np.array(numbers, dtype=np.float64)
@@ -95,15 +100,44 @@ def read_bag(path: Path) -> RawLog:
     return RawLog(path, 'log of fluid_sim', 'fluid_sim', streams, about, tuple(faults))
 
 
+def written_by(file: Path) -> str:
+    """
+    Return what program wrote an MCAP file, by its header; '' where that cannot be read.
+
+    Parameters
+    ----------
+    file
+        Of the log.
+
+    """
+    with open_data(file) as stream:
+        head = stream.read(_HEAD)
+    if not head.startswith(_MAGIC) or len(head) < 25:
+        return ''
+    # a record of kind 1 and its length, then two texts with theirs: profile and library
+    (profile,) = struct.unpack_from('<I', head, 17)
+    at = 21 + profile
+    if head[8] != 1 or at + 4 > len(head):
+        return ''
+    (size,) = struct.unpack_from('<I', head, at)
+    return head[at + 4 : at + 4 + size].decode('utf-8', 'replace')
+
+
 def _mcap(files: list[Path]) -> Iterator[_Message]:
-    from mcap.reader import make_reader
+    from mcap.reader import McapReader, NonSeekingReader, make_reader
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
     for file in files:
         store = get_typestore(Stores.EMPTY)
         with open_data(file) as stream:
-            reader = make_reader(stream)
-            for schema, channel, message in reader.iter_messages():
+            reader: McapReader = make_reader(stream)
+            whole = True
+            try:
+                reader.get_summary()
+            except Exception:  # noqa: BLE001  cut off: what is before, in the order of the file
+                stream.seek(0)
+                reader, whole = NonSeekingReader(stream), False
+            for schema, channel, message in reader.iter_messages(log_time_order=whole):
                 if schema is None or channel.message_encoding != 'cdr':
                     continue
                 if schema.name.rpartition('/')[2] in _SKIPPED:

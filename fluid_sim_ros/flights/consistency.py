@@ -34,9 +34,20 @@ _LAGS = np.arange(-0.3, 0.3001, 0.005)
 _FACTORS = {
     'rates': {np.pi / 180: 'deg/s', 180 / np.pi: 'rad/s, not deg/s'},
     'specific_force': {GRAVITY: 'g', 1 / GRAVITY: 'm/s^2, not g'},
-    'velocity': {0.01: 'cm/s', 0.001: 'mm/s'},
+    'velocity': {
+        0.01: 'cm/s',
+        0.001: 'mm/s',
+        1 / 3.6: 'km/h',
+        0.514444: 'kn',
+        0.3048: 'ft/s',
+        100.0: 'position in cm',
+        1000.0: 'position in mm',
+        1 / 0.3048: 'position in ft',
+    },
 }
 _NAMES = 'xyz'
+#: Rates that are logged less often than this tell nothing of a flight [s].
+_SELDOM = 1.0
 
 
 @dataclass(frozen=True)
@@ -82,7 +93,8 @@ def check_flight(flight: Flight) -> list[Check]:
 
     """
     signals = flight.signals
-    checks = [_size(flight)] if 'specific_force' in signals else []
+    checks = [_pace(flight)] if 'rates' in signals else []
+    checks += [_size(flight)] if 'specific_force' in signals else []
     for of, change, words in (
         ('velocity', 'position', 'position against velocity'),
         ('rates', 'attitude', 'attitude against rates'),
@@ -95,6 +107,17 @@ def check_flight(flight: Flight) -> list[Check]:
     if driving is not None and 'specific_force' in signals:
         checks.append(_drive(driving, signals['specific_force']))
     return checks
+
+
+def _pace(flight: Flight) -> Check:
+    """Look at how often rates were logged: so seldom is a clock in another unit."""
+    apart = float(np.median(np.diff(flight.signals['rates'].times)))
+    unit = next((u for u, longest in (('us', 1e3), ('ms', _SELDOM)) if apart > longest), '')
+    finding = unit and (
+        f'rates: its samples are {apart:.4g} s apart; the time looks like {unit}: say time: '
+        f'{{unit: {unit}}} in the mapping of a table'
+    )
+    return Check('pace of the rates', 'rates', None, None, finding)
 
 
 def _size(flight: Flight) -> Check:
@@ -123,6 +146,10 @@ def _intervals(first: Signal, second: Signal, length: float) -> tuple[Array, Arr
     whole = np.ones(len(begins), dtype=np.bool_)
     for start, stop in (*first.gaps, *second.gaps):
         whole &= (begins + length < start) | (begins > stop)
+    for signal in (first, second):  # a blow or a glitch is no change of unit
+        jumps = signal.times[signal.outliers] if len(signal.outliers) else np.zeros(0)
+        inside = np.searchsorted(jumps, begins + length) > np.searchsorted(jumps, begins)
+        whole &= ~inside
     return begins[whole], begins[whole] + length
 
 
@@ -218,7 +245,9 @@ def _finding(
                 axes = ' '.join(
                     f'{"-" if s < 0 else ""}{_NAMES[i]}' for s, i in zip(signs, order, strict=True)
                 )
-                words = [f'unit {unit}'] * bool(unit) + [f'axes {axes}'] * (not plain)
+                words = [unit if ' in ' in unit else f'unit {unit}'] * bool(unit) + [
+                    f'axes {axes}'
+                ] * (not plain)
                 # the simpler reading wins where two fit alike
                 rank = _error(moved, turned, of) + 0.02 * len(words)
                 readings.append((rank, ' and '.join(words)))

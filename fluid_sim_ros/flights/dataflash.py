@@ -76,12 +76,25 @@ def read_dataflash(path: Path, wanted: Collection[str]) -> RawLog:
         raise
     except Exception as error:  # noqa: BLE001  as above
         faults.append(f'damaged: {reason_of(error)}; what is before is read')
+    if _cut_off(log):
+        faults.append('damaged: cut off within a message; what is before is read')
     streams = {}
     for stream, found in rows.items():
         table = np.array(found, dtype=np.float64)
         columns = {key: table[:, 1 + i] for i, key in enumerate(fields[stream])}
         streams[stream] = Stream(table[:, 0] * 1e-6, columns)
     return RawLog(path, 'ArduPilot DataFlash', 'ardupilot', streams, about, tuple(faults))
+
+
+def _cut_off(log: Any) -> bool:
+    """Return whether the file ends within a message; DFReader knows where the whole ones are."""
+    last = max(
+        (places[-1] + log.formats[kind].len for kind, places in enumerate(log.offsets)
+         if places and kind in log.formats),
+        default=0,
+    )  # fmt: skip
+    rest = bytes(log.data_map[last : log.data_len])
+    return last > log.data_len or rest.startswith(MAGIC[:2])
 
 
 def _next(log: Any, types: list[str]) -> Any:

@@ -193,6 +193,28 @@ def read_mapping(path: Path) -> FlightMap:
     return parse(FlightMap, read_yaml(path), path)
 
 
+def over_default(mapping: FlightMap | None, kind: str) -> FlightMap:
+    """
+    Return a user's mapping over that of a format: what it does not say is as there.
+
+    Parameters
+    ----------
+    mapping
+        The user's; a quantity without a place (``wind: []``) is left out.
+    kind
+        ``RawLog.format``.
+
+    """
+    default = default_mapping(kind)
+    if mapping is None:
+        return default
+    stated = {key: getattr(mapping, key) for key in mapping.model_fields_set}
+    stated['signals'] = {**default.signals, **mapping.signals}
+    if mapping.actuators:
+        stated.setdefault('thrusters', [])
+    return default.model_copy(update=stated)
+
+
 def default_mapping(kind: str) -> FlightMap:
     """
     Return the mapping of a format, ``config/flights/FORMAT.yaml``.

@@ -6,7 +6,7 @@ from fluid_sim_ros.errors import printable
 from fluid_sim_ros.flights import bag, bitcraze, dataflash, table, ulog
 from fluid_sim_ros.flights.assemble import flight_of
 from fluid_sim_ros.flights.flight import Flight, FlightError, RawLog
-from fluid_sim_ros.flights.mapping import FlightMap, default_mapping
+from fluid_sim_ros.flights.mapping import FlightMap, over_default
 from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.limits import check_limit, limit
 
@@ -23,7 +23,7 @@ def read_log(path: Path, mapping: FlightMap | None = None) -> tuple[RawLog, Flig
     path
         A file, or the folder of a bag.
     mapping
-        The user's; None: that of the format.
+        The user's, over that of the format.
 
     Returns
     -------
@@ -44,7 +44,7 @@ def read_log(path: Path, mapping: FlightMap | None = None) -> tuple[RawLog, Flig
     if head.startswith(ulog.MAGIC):
         raw = ulog.read_ulog(path)
     elif head[:3] == dataflash.MAGIC:
-        known = mapping or default_mapping('ardupilot')
+        known = over_default(mapping, 'ardupilot')
         wanted = {place.stream for places in known.signals.values() for place in places}
         raw = dataflash.read_dataflash(path, wanted)
     elif head[:1] == bytes([bitcraze.MAGIC]):
@@ -53,14 +53,14 @@ def read_log(path: Path, mapping: FlightMap | None = None) -> tuple[RawLog, Flig
     elif path.is_dir() or suffix in ('.mcap', '.db3'):
         raw = bag.read_bag(path)
     elif suffix in ('.csv', '.parquet'):
-        clock = (mapping or default_mapping('table')).time
+        clock = over_default(mapping, 'table').time
         raw = table.read_table(path, clock.column, clock.unit)
     else:
         raise FlightError(
             f'{path}: no log of a known format; known: PX4 ULog (.ulg), ArduPilot DataFlash '
             '(.bin), Bitcraze uSD (.usd), ROS 2 bag or MCAP, CSV, Parquet'
         )
-    return raw, mapping or default_mapping(raw.format)
+    return raw, over_default(mapping, raw.format)
 
 
 def _head(path: Path) -> tuple[bytes, int]:
@@ -69,9 +69,12 @@ def _head(path: Path) -> tuple[bytes, int]:
         return b'', sum(file.stat().st_size for file in path.iterdir() if file.is_file())
     try:
         with open_data(path) as file:
-            return file.read(16), path.stat().st_size
+            head = file.read(16)
     except OSError as error:
         raise FlightError(f'{shown}: {error.strerror or error}') from None
+    if not head:
+        raise FlightError(f'{shown}: the file is empty')
+    return head, path.stat().st_size
 
 
 def read_flight(path: Path | str, mapping: FlightMap | None = None) -> Flight:
@@ -83,7 +86,7 @@ def read_flight(path: Path | str, mapping: FlightMap | None = None) -> Flight:
     path
         A file, or the folder of a bag.
     mapping
-        Which columns are which quantity; None: that of the format, ``config/flights``.
+        Which columns are which quantity, over that of the format (``config/flights``).
 
     Returns
     -------
@@ -97,4 +100,4 @@ def read_flight(path: Path | str, mapping: FlightMap | None = None) -> Flight:
 
     """
     raw, known = read_log(Path(path), mapping)
-    return flight_of(raw, known, strict=mapping is not None)
+    return flight_of(raw, known, named=frozenset(mapping.signals) if mapping else frozenset())

@@ -73,6 +73,8 @@ def _csv(path: Path) -> dict[str, Array]:
 def _columns(rows: Iterator[list[str]], path: Path) -> dict[str, Array]:
     """Return the columns of a table, row by row: texts of numbers take much memory."""
     names = [name.strip() for name in next(rows, [])]
+    if not names:
+        raise FlightError(f'{path}: the first line must name the columns')
     check_limit('log_columns', len(names), f'{path}: columns')
     if len(set(names)) != len(names) or not names:
         raise FlightError(f'{path}: the first line must name each column once')

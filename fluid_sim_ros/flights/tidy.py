@@ -60,6 +60,26 @@ def find_gaps(times: Array) -> tuple[tuple[float, float], ...]:
     return tuple((float(times[i]), float(times[i + 1])) for i in wide)
 
 
+def missing_share(times: Array) -> float:
+    """
+    Return the share of samples that a steady log would have and this one has not.
+
+    Parameters
+    ----------
+    times
+        Rising [s], shape (n,).
+
+    """
+    if len(times) < 10:
+        return 0.0
+    apart = np.diff(times)
+    steady = np.rint(apart / np.median(apart))
+    # of a stream that is written on change, the distances are of any length
+    if float(np.mean(np.abs(apart / np.median(apart) - steady) < 0.1)) < 0.8:
+        return 0.0
+    return float(1.0 - len(apart) / np.maximum(steady, 1.0).sum())
+
+
 def find_outliers(quantity: str, values: Array) -> Flags:
     """
     Return which samples jump away from both neighbours.

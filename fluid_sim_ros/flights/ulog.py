@@ -8,8 +8,12 @@ import numpy as np
 from fluid_sim_ros.errors import needed_for
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
 from fluid_sim_ros.flights.strangers import reason_of, silent
+from fluid_sim_ros.schema.data_file import open_data
+from fluid_sim_ros.schema.limits import limit
 
 MAGIC = b'ULog\x01\x12\x35'
+#: Length of the head of a file [bytes].
+_HEADER = 16
 #: Facts that are shown, by their key in the log.
 _ABOUT = {'ver_hw': 'hardware', 'sys_name': 'software', 'ver_sw_branch': 'branch'}
 _PARAMETERS = {'SYS_AUTOSTART': 'airframe', 'MAV_TYPE': 'MAV_TYPE'}
@@ -53,12 +57,25 @@ def read_ulog(path: Path) -> RawLog:
         name = topic.name if not topic.multi_id else f'{topic.name}#{topic.multi_id}'
         times = np.asarray(topic.data['timestamp'], dtype=np.float64) * 1e-6
         streams[name] = Stream(times, columns)
+    cut = _cut_off(path)
     lost = sum(drop.duration for drop in log.dropouts) * 1e-3
     faults = [f'{len(log.dropouts)} dropouts of the logger, {lost:.2f} s together'] * bool(lost)
     if getattr(log, '_file_corrupt', False):
         faults.append('damaged: what pyulog could read is read')
+    if cut:
+        faults.append('damaged: cut off within a message; what is before is read')
     about = {words: str(log.msg_info_dict[key]) for key, words in _ABOUT.items()
              if key in log.msg_info_dict}  # fmt: skip
     about |= {words: f'{log.initial_parameters[key]:g}' for key, words in _PARAMETERS.items()
               if key in log.initial_parameters}  # fmt: skip
     return RawLog(path, 'PX4 ULog', 'px4', streams, about, tuple(faults))
+
+
+def _cut_off(path: Path) -> bool:
+    """Return whether the last message of a log is not whole; each begins with its length."""
+    with open_data(path) as file:
+        content = file.read(limit('flight_bytes'))
+    at, end = _HEADER, len(content)
+    while at + 3 <= end:
+        at += 3 + int.from_bytes(content[at : at + 2], 'little')
+    return at != end

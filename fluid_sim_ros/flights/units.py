@@ -13,8 +13,11 @@ if TYPE_CHECKING:  # SciPy's rotations take 29 MiB, which most logs of our own d
 
 #: SI unit -> allowed unit -> factor.
 UNITS: dict[str, dict[str, float]] = {
-    'm': {'m': 1.0, 'cm': 0.01, 'mm': 0.001},
-    'm/s': {'m/s': 1.0, 'cm/s': 0.01, 'mm/s': 0.001},
+    'm': {'m': 1.0, 'cm': 0.01, 'mm': 0.001, 'ft': 0.3048},
+    'm/s': {
+        'm/s': 1.0, 'cm/s': 0.01, 'mm/s': 0.001, 'km/h': 1 / 3.6, 'kn': 1852 / 3600,
+        'ft/s': 0.3048,
+    },
     'rad/s': {
         'rad/s': 1.0, 'deg/s': np.pi / 180, 'mrad/s': 1e-3, 'rpm': np.pi / 30,
         'Hz': 2 * np.pi,

@@ -12,6 +12,8 @@ _WORTH, _CLEAR = 0.02, 0.25
 _LEAST = 0.02
 #: A model whose force is so many times off is of another vehicle.
 _ANOTHER = 1.6
+#: A model that turns by less says nothing of the order of its thrusters [rad/s^2].
+_TURNS = 1.0
 
 
 def words(numbers: dict[str, Any]) -> list[str]:
@@ -43,6 +45,11 @@ def words(numbers: dict[str, Any]) -> list[str]:
         )
     for axis, name in zip(AXES, ('roll', 'pitch', 'yaw'), strict=True):
         turn = numbers['angular_acceleration']['axes'][axis]
+        if turn['scale'] is None and turn['model_rms'] > max(_TURNS, turn['measured_rms']):
+            lines.append(
+                f'in {name} the vehicle does not turn as the model would: are the thrusters in '
+                'the order of the log (thrusters: [...] in the mapping), the axes right?'
+            )
         if abs(turn['mean']) > max(_CLEAR * turn['rms'], 0.05):
             lines.append(
                 f'a constant {turn["mean"]:+.2g} rad/s^2 is missing in {name}: the centre of mass '

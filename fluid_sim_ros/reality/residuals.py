@@ -241,6 +241,7 @@ def _axis(measured: Array, model: Array, speed: Array, centred: bool) -> dict[st
         'mean': float(off.mean()),
         'rms': float(np.sqrt((off**2).mean())),
         'measured_rms': float(np.sqrt((measured**2).mean())),
+        'model_rms': float(np.sqrt((model**2).mean())),
         'scale': _scale(measured, model, centred),
         'speed_rms': moved,
         'per_speed': float(moving @ off / (moving @ moving)) if tells else None,

@@ -164,8 +164,8 @@ def cut(
     if not len(begins):
         raise FlightError(
             f'{flight.raw.path}: no window of {length:g} s is whole between {max(begin, 0):.3g} '
-            f'and {min(end, float(slowest.times[-1])):.3g} s; give shorter --horizons, or '
-            'another part'
+            f'and {min(end, float(slowest.times[-1])):.3g} s; give shorter windows '
+            '(--horizons; of a fit --window), or another part'
         )
     return Windows(flight, begins, length, {k: v for k, v in left_out.items() if v})
 

@@ -29,6 +29,7 @@ from fluid_sim_ros.recording.records import (
     OTHERS,
     RECORD,
     SCHEMA,
+    UNCHECKED,
     Fields,
     decompress,
     read_attachment,
@@ -183,7 +184,7 @@ class _Scan:
             if name in self._log.attachments:
                 raise BadRecordError(f"there is another attachment '{printable(name)}' before it")
             self._log.attachments[name] = data
-        elif record != struct.pack('<I', crc):
+        elif record not in (struct.pack('<I', crc), UNCHECKED):
             raise BadRecordError('the checksum of the data section is wrong: something is damaged')
 
     def _take_chunk(self, at: int, record: bytes) -> None:
@@ -221,7 +222,7 @@ class _Scan:
         if not len(MAGIC) <= start <= foot:
             return False
         summary = self._bytes(start, foot - start)
-        if zlib.crc32(footer[:-4], zlib.crc32(summary)) != crc:
+        if crc and zlib.crc32(footer[:-4], zlib.crc32(summary)) != crc:
             return False
         try:
             with reading(self._log.path, f'index at byte {start}'):

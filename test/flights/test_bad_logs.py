@@ -122,6 +122,11 @@ def test_empty_cells_are_no_samples(tmp_path):
      'looks like axes x -y -z'),
     ({f'attitude_{n}': v for n, v in zip('xyzw', FLIGHT.attitude.T, strict=True)},
      'other order of its quaternions'),
+    ({f'position_{n}': 100 * v for n, v in zip('xyz', FLIGHT.position.T, strict=True)},
+     'looks like position in cm'),
+    ({f'velocity_{n}': 3.6 * v for n, v in zip('xyz', FLIGHT.velocity.T, strict=True)},
+     'looks like unit km/h'),
+    ({'time': 1e3 * FLIGHT.times}, 'the time looks like ms'),
 ])  # fmt: skip
 def test_units_axes_and_orders_are_recognised_and_asked_about(tmp_path, changed, asked):
     flight = read_flight(written(tmp_path, **changed))
@@ -194,3 +199,63 @@ def test_info_of_a_damaged_log_fails(tmp_path):
     path.write_bytes(logs.usd(FLIGHT, damage=1000))
 
     assert main(['info', str(path), '--json', str(tmp_path / 'info.json')]) == 1
+
+
+@pytest.mark.parametrize(('rows', 'words'), [
+    (None, 'the file is empty'), (0, 'has no samples'), (1, 'too few samples: .*1 of 1 samples'),
+])  # fmt: skip
+def test_a_table_without_samples_is_one_line(tmp_path, rows, words):
+    path = tmp_path / 'flight.csv'
+    columns = {name: values[:rows] for name, values in logs.table(FLIGHT).items()}
+    path.write_text('' if rows is None else logs.csv_text(columns))
+
+    with pytest.raises(FlightError, match=words):
+        read_flight(path)
+
+
+def test_samples_that_were_dropped_here_and_there_are_counted(tmp_path):
+    keep = np.random.default_rng(0).random(len(FLIGHT.times)) > 0.3
+    path = tmp_path / 'flight.csv'
+    path.write_text(logs.csv_text({k: v[keep] for k, v in logs.table(FLIGHT).items()}))
+
+    notes = read_flight(path).notes
+
+    assert len(notes) == 1
+    assert notes[0].startswith('position, attitude, velocity')
+    assert notes[0].endswith(' % of the samples of table are missing')
+
+
+def test_a_mapping_says_only_what_is_different(tmp_path):
+    small = {
+        f'specific_force_{n}': v / logs.GRAVITY
+        for n, v in zip('xyz', FLIGHT.specific_force.T, strict=True)
+    }  # fmt: skip
+    mapping = tmp_path / 'mapping.yaml'
+    mapping.write_text(
+        'vehicle: x500\nsignals:\n  rotor_speed: []\n  specific_force: {stream: table, unit: g,'
+        ' columns: [specific_force_x, specific_force_y, specific_force_z]}\n'
+    )
+
+    flight = read_flight(written(tmp_path, **small), read_mapping(mapping))
+
+    assert flight.vehicle == 'x500'
+    assert 'rotor_speed' not in flight.signals
+    assert 'position' in flight.signals
+    assert refuse_unclear(flight) == []
+
+
+@pytest.mark.parametrize('kind', ['ulg', 'bin'])
+@pytest.mark.parametrize('cut', [0, 5])
+def test_a_log_of_an_autopilot_that_ends_within_a_message_says_so(tmp_path, kind, cut):
+    path = tmp_path / f'flight.{kind}'
+    content = logs.ulog(logs.px4(FLIGHT)) if kind == 'ulg' else (
+        logs.dataflash(logs.ardupilot(FLIGHT))
+    )  # fmt: skip
+    path.write_bytes(content[: len(content) - cut])
+
+    faults = read_flight(path).raw.faults
+
+    assert [fault for fault in faults if 'cut off within a message' in fault] == list(
+        faults[-1:] if cut else ()
+    )
+    assert bool(faults) == bool(cut)

@@ -229,3 +229,55 @@ def test_a_table_with_names_and_units_of_its_own(tmp_path):
     np.testing.assert_allclose(flight.signals['position'].values, FLIGHT.position, atol=1e-9)
     np.testing.assert_allclose(flight.signals['rates'].values, FLIGHT.rates, atol=1e-9)
     np.testing.assert_allclose(flight.signals['rates'].times, FLIGHT.times, atol=1e-9)
+
+
+def two_vehicles(folder):
+    store = get_typestore(Stores.ROS2_JAZZY)
+    with Writer(folder, version=8, storage_plugin=StoragePlugin.MCAP) as writer:
+        for name in ('a', 'b'):
+            for topic, (kind, make) in {
+                f'/{name}/odometry': ('nav_msgs/msg/Odometry', odometry),
+                f'/{name}/rotors': ('sensor_msgs/msg/JointState', joints),
+            }.items():
+                connection = writer.add_connection(topic, kind, typestore=store)
+                for index in range(100):
+                    log_ns = round((1000 + FLIGHT.times[index]) * 1e9)
+                    message = store.serialize_cdr(make(store, index), kind)
+                    writer.write(connection, log_ns, message)
+    return folder
+
+
+def test_of_two_vehicles_in_a_bag_the_named_one_is_taken_and_else_it_is_said(tmp_path):
+    bag = two_vehicles(tmp_path / 'bag')
+
+    assert any('2 topics would do (/a/odometry, /b/odometry)' in n for n in read_flight(bag).notes)
+    flight = read_flight(bag, FlightMap(vehicle='b'))
+    assert flight.notes == ()
+    assert flight.signals['position'].source.startswith('/b/odometry')
+    assert flight.signals['rotor_speed'].source.startswith('/b/rotors')
+
+
+def test_info_of_a_bag_of_others_shows_its_signals_and_no_damage(tmp_path, capsys):
+    from fluid_sim_ros.cli import main
+
+    bag = two_vehicles(tmp_path / 'bag')
+
+    assert main(['info', str(bag)]) == 0
+    shown = capsys.readouterr().out
+    assert 'rotor_speed' in shown
+    assert 'damaged' not in shown
+    # a writer that makes no checksums has damaged nothing
+    from fluid_sim_ros.recording.reader import open_log
+
+    assert open_log(next(bag.glob('*.mcap'))).faults == []
+
+
+def test_a_bag_that_was_cut_off_is_read_up_to_there(tmp_path):
+    file = next(two_vehicles(tmp_path / 'bag').glob('*.mcap'))
+    content = file.read_bytes()
+    file.write_bytes(content[: len(content) - 5000])
+
+    flight = read_flight(file)
+
+    assert len(flight.signals['position'].times) == 100
+    assert 'damaged' in flight.raw.faults[0]

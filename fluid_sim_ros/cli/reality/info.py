@@ -23,11 +23,16 @@ def is_foreign(path: Path) -> bool:
         Of the log.
 
     """
+    from fluid_sim_ros.flights.bag import written_by
     from fluid_sim_ros.flights.reader import ENDINGS
 
-    if path.is_dir():
-        return not any(path.glob('*.mcap')) and any(path.glob('*.db3'))
-    return path.suffix.lower() in ENDINGS and path.suffix.lower() != '.mcap'
+    files = sorted(path.glob('*.mcap')) if path.is_dir() else [path]
+    if path.is_dir() and not files:
+        return any(path.glob('*.db3'))
+    if files[0].suffix.lower() == '.mcap':
+        program = written_by(files[0]) if files[0].is_file() else ''
+        return bool(program) and not program.startswith('fluid_sim_ros')
+    return path.suffix.lower() in ENDINGS
 
 
 def mapping_of(path: Path | None) -> 'FlightMap | None':
