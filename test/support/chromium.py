@@ -65,6 +65,24 @@ class Browser:
             time.sleep(0.1)
         raise TimeoutError(f'not within {timeout} s: {script}')
 
+    def press_button(self, label):
+        """Click a button by the words on it."""
+        words = f"b => b.innerText.trim() === '{label}'"
+        self._click(f"[...document.querySelectorAll('button')].find({words})", 0.5)
+
+    def set_slider(self, number, share):
+        """Click into a slider, counted from the top, at a share of its length."""
+        self._click(f"document.querySelectorAll('[role=slider]')[{number}]?.parentElement", share)
+
+    def _click(self, element, share):
+        """Click on an element, at a share of its width."""
+        self.wait_for(f'!!{element}')
+        box = f'{element}.getBoundingClientRect()'
+        x, y, width, height = (self.run(f'{box}.{k}') for k in ('x', 'y', 'width', 'height'))
+        for kind in ('mousePressed', 'mouseReleased'):
+            self.call('Input.dispatchMouseEvent', type=kind, x=x + share * width,
+                      y=y + height / 2, button='left', clickCount=1)  # fmt: skip
+
     def screenshot(self, path):
         """Write a PNG of the page."""
         data = self.call('Page.captureScreenshot', format='png')['data']

@@ -15,7 +15,8 @@
 
   const typing = (target) =>
     target instanceof HTMLElement &&
-    (target.isContentEditable || ['INPUT', 'TEXTAREA', 'SELECT'].includes(target.tagName));
+    (target.isContentEditable || ['INPUT', 'TEXTAREA', 'SELECT'].includes(target.tagName) ||
+      target.getAttribute('role') === 'slider');  // arrow keys move a slider that has the focus
 
   const stop = (event) => { event.preventDefault(); event.stopImmediatePropagation(); };
 
