@@ -1,6 +1,5 @@
 """ROS 2 bags and MCAP files of any software: messages flattened to columns, by rosbags."""
 
-import struct
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -18,8 +17,10 @@ _LONGEST = 32
 _MOST_COLUMNS = 400
 #: Messages of these types hold nothing of a flight.
 _SKIPPED = ('MarkerArray', 'Image', 'CompressedImage', 'PointCloud2', 'String', 'DiagnosticArray')
-#: First bytes of an MCAP file, and how many of them are read for who wrote it.
-_MAGIC, _HEAD = b'\x89MCAP0\r\n', 1024
+#: First bytes of an MCAP file; how much of both its ends is looked at [bytes], for what a log of
+#: ours has there.
+_MAGIC, _LOOK = b'\x89MCAP0\r\n', 1 << 16
+_OURS = (b'fluid_sim_ros ', b'fluid_sim/run.json')
 #: (topic, type, time of the log [ns], message)
 _Message = tuple[str, str, int, Any]
 
@@ -100,9 +101,9 @@ def read_bag(path: Path) -> RawLog:
     return RawLog(path, 'log of fluid_sim', 'fluid_sim', streams, about, tuple(faults))
 
 
-def written_by(file: Path) -> str:
+def of_others(file: Path) -> bool:
     """
-    Return what program wrote an MCAP file, by its header; '' where that cannot be read.
+    Return whether an MCAP file is of other software, as far as a damaged one tells.
 
     Parameters
     ----------
@@ -111,16 +112,11 @@ def written_by(file: Path) -> str:
 
     """
     with open_data(file) as stream:
-        head = stream.read(_HEAD)
-    if not head.startswith(_MAGIC) or len(head) < 25:
-        return ''
-    # a record of kind 1 and its length, then two texts with theirs: profile and library
-    (profile,) = struct.unpack_from('<I', head, 17)
-    at = 21 + profile
-    if head[8] != 1 or at + 4 > len(head):
-        return ''
-    (size,) = struct.unpack_from('<I', head, at)
-    return head[at + 4 : at + 4 + size].decode('utf-8', 'replace')
+        head = stream.read(_LOOK)
+        stream.seek(max(0, file.stat().st_size - _LOOK))
+        ends = head + stream.read(_LOOK)
+    # who wrote it stands at its begin, what is attached at its end
+    return head.startswith(_MAGIC) and not any(mark in ends for mark in _OURS)
 
 
 def _mcap(files: list[Path]) -> Iterator[_Message]:

@@ -23,15 +23,14 @@ def is_foreign(path: Path) -> bool:
         Of the log.
 
     """
-    from fluid_sim_ros.flights.bag import written_by
+    from fluid_sim_ros.flights.bag import of_others
     from fluid_sim_ros.flights.reader import ENDINGS
 
     files = sorted(path.glob('*.mcap')) if path.is_dir() else [path]
     if path.is_dir() and not files:
         return any(path.glob('*.db3'))
     if files[0].suffix.lower() == '.mcap':
-        program = written_by(files[0]) if files[0].is_file() else ''
-        return bool(program) and not program.startswith('fluid_sim_ros')
+        return files[0].is_file() and of_others(files[0])
     return path.suffix.lower() in ENDINGS
 
 
