@@ -99,6 +99,39 @@ def test_a_quota_that_is_used_up_during_a_run(tmp_path):
     check(process, folder, 'Disk quota exceeded', 2.0)
 
 
+#: A file system of its own in a file, with a quota for one folder of it.
+BTRFS = """
+set -e
+truncate -s 200M {0}/disk && mkfs.btrfs -q {0}/disk >&2
+mount -o loop {0}/disk {0}/logs
+btrfs subvolume create {0}/logs/mine >&2
+btrfs quota enable {0}/logs && btrfs qgroup limit 300K {0}/logs/mine >&2
+exec "$@"
+"""
+
+
+@pytest.mark.full
+@pytest.mark.skipif(
+    os.geteuid() != 0 or not (shutil.which('mkfs.btrfs') and shutil.which('btrfs')),
+    reason='a file system with a quota takes root and btrfs-progs',
+)
+def test_a_quota_of_a_file_system_that_is_used_up_during_a_run(tmp_path):
+    folder_of(tmp_path)
+    before = ['unshare', '--mount', 'sh', '-c', BTRFS.format(tmp_path), 'sh']
+    process = start(
+        tmp_path / 'logs' / 'mine', '--pacing', 'realtime', '--duration', '7', '--json',
+        str(tmp_path / 'a.json'), before=before,
+    )  # fmt: skip
+    _, errors = process.communicate(timeout=90)
+    line = f'recording to {tmp_path / "logs" / "mine" / "a.mcap"} stopped: Disk quota exceeded'
+    assert process.returncode == 2, errors
+    assert errors.splitlines()[-2:] == [
+        f'warning: {line}; going on without', f'fluid_sim: {line}'
+    ]  # fmt: skip
+    result = json.loads((tmp_path / 'a.json').read_text())
+    assert result['record_fault'] == line and result['duration_s'] == pytest.approx(7.0)
+
+
 @pytest.mark.full
 def test_too_few_file_handles_for_a_recording_are_one_line(tmp_path):
     code = """
