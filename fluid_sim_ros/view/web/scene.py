@@ -90,7 +90,7 @@ class Scene:
             for body, handle in self._bodies.items():
                 handle.position, handle.wxyz = data.xpos[body], data.xquat[body]
             self._draw_ghost(frame)
-            self._draw_forces(frame)
+            self._draw_forces(frame, place)
             self._flow.draw(frame, place)
             self._draw_trail(frame, place)
             self._around.draw(place, self._eye(place))
@@ -166,7 +166,7 @@ class Scene:
             return seen
         return place
 
-    def _draw_forces(self, frame: Frame) -> None:
+    def _draw_forces(self, frame: Frame, place: Array) -> None:
         looks, arrows, tips = self._looks, [], []
         for name in self._stage.vehicles:
             found = [
@@ -183,9 +183,11 @@ class Scene:
             arrows += [*found, *each]
             if name == looks.vehicle:
                 tips = [*found, *self._named(each)]
+        # from the vehicle: a browser that is late with new arrows still has them there
+        self._arrows.position = place
         show_arrows(
             self._arrows,
-            [np.stack([arrow.start, arrow.start + arrow.along]) for arrow in arrows],
+            [np.stack([a.start, a.start + a.along]) - place for a in arrows],
             [rgb(term_color(arrow.term)) for arrow in arrows],
         )
         self._draw_labels(tips)
