@@ -4,7 +4,8 @@ The crazyflie models against flights of a real Crazyflie 2.1 of 37 g.
 Errors of open-loop windows by horizon of ``crazyflie`` (numbers of the literature) and of
 ``crazyflie_37g`` (fitted to flights 00, 12, 20), beside two baselines, on each flight; what limits
 them: the response to the rotors' moments by band of frequency, what is left of the moments, and
-how far an unknown moment of 1 rad/s^2 turns the vehicle within a window. One picture in doc/img.
+how far an unknown moment of 1 rad/s^2 turns the vehicle within a window; what a perfect model
+would be off by from measurements with this noise (``forecast_bound``). One picture in doc/img.
 
 The recordings (figure eights in motion capture, crazyflie-data-collection of IMRC, TU Berlin) are
 not part of this repository.
@@ -20,6 +21,7 @@ import numpy as np
 from scipy.signal import butter, filtfilt
 
 from benchmarks.common import ROOT, arguments, write
+from benchmarks.reality.forecast_bound import bound_of
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.reality.compare import HORIZONS, Part, compare, fly_windows
@@ -101,8 +103,8 @@ def _response(flight: Flight, low: float, high: float) -> dict[str, float]:
     return found
 
 
-def draw(found: dict[str, Any], path: Path) -> None:
-    """Draw the errors of the left-out flight by horizon."""
+def draw(found: dict[str, Any], bound: dict[str, Any], path: Path) -> None:
+    """Draw the errors of the left-out flight by horizon, and what a perfect model would have."""
     mpl.use('Agg')
     from matplotlib import pyplot as plt
 
@@ -113,6 +115,9 @@ def draw(found: dict[str, Any], path: Path) -> None:
         ('hold velocity and rates', rows['hold_velocity'], '^:', 'tab:orange'),
         ('rigid body', rows['crazyflie_37g']['rigid_body'], 'v:', 'tab:red'),
         ('crazyflie_37g (fitted)', rows['crazyflie_37g']['horizons'], 'o-', 'tab:blue'),
+        ('perfect model, noise of the log', bound['all_that_is_measured'], '.--', 'tab:green'),
+        ('perfect model, 1 % of each thrust unknown', bound['thrust_of_each_rotor']['0.01'],
+         '.-.', 'tab:olive'),
     ]  # fmt: skip
     labels = ('position [m]', 'velocity [m/s]', 'attitude [deg]')
     for axis, key, label in zip(axes, KEYS, labels, strict=True):
@@ -125,7 +130,7 @@ def draw(found: dict[str, Any], path: Path) -> None:
         axis.set_xticks(HORIZONS, [f'{h:g}' for h in HORIZONS])
         axis.minorticks_off()
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize=7)
+    axes[0].legend(fontsize=6)
     figure.savefig(path, dpi=110)
 
 
@@ -162,10 +167,11 @@ def main() -> None:
             if any(here[h][key] >= rows[h][key] for rows in baselines)
         ],
         'limits': {number: limits_of(flight) for number, flight in flights.items()},
+        'bound': {n: bound_of(flight, 'crazyflie_37g', HORIZONS) for n, flight in flights.items()},
     }  # fmt: skip
     write(chosen.json, result)
     if not chosen.quick:
-        draw(found, ROOT / 'doc' / 'img' / 'crazyflie_37g_reality.png')
+        draw(found, result['bound'][LEFT_OUT], ROOT / 'doc' / 'img' / 'crazyflie_37g_reality.png')
 
 
 if __name__ == '__main__':
