@@ -1,16 +1,20 @@
 """
 Real-time factor of the node: free pacing, rov, 2 ms implicitfast, 100 Hz odom + wrench + clock.
 
-One subscriber process takes all three topics. The bare loop (``mj_step`` of the same model) is
+One subscriber process takes all topics. The bare loop (``mj_step`` of the same model) is
 timed in this process before and after, and the node's share is against their mean. Targets:
-real-time factor 150, and 35 % of the bare loop.
+real-time factor 150, and 35 % of the bare loop; with RK4 50 %. ``fleets`` has 1, 4 and 10 x500
+with odometry and wrench of each at 100 Hz.
 """
 
 import json
 import os
 import subprocess
 import sys
+import tempfile
 import textwrap
+from pathlib import Path
+from typing import Any
 
 import mujoco
 
@@ -18,9 +22,16 @@ from benchmarks.common import arguments, wall_seconds, write
 from fluid_sim_ros import Simulation
 
 DOMAIN = '101'
-SCENE, VEHICLE = 'rov', 'bluerov2_heavy'
+SCENE = 'rov'
+FLEETS = (1, 4, 10)
+#: A fleet of so many vehicles.
+_FLEET = """
+medium: air
+vehicles:
+  swarm: {{model: x500, count: {count}, spacing: 3.0, position: [0, 0, 10], keyframe: hover}}
+"""
 
-SUBSCRIBER = textwrap.dedent(f"""
+SUBSCRIBER = textwrap.dedent("""
     import json, rclpy, sys, time
     from geometry_msgs.msg import WrenchStamped
     from nav_msgs.msg import Odometry
@@ -28,7 +39,7 @@ SUBSCRIBER = textwrap.dedent(f"""
     from rosgraph_msgs.msg import Clock
     rclpy.init()
     node = rclpy.create_node('listener')
-    counts = {{}}
+    counts = {}
     last = [time.monotonic()]
     def counter(topic):
         counts[topic] = 0
@@ -36,8 +47,10 @@ SUBSCRIBER = textwrap.dedent(f"""
             counts[topic] += 1
             last[0] = time.monotonic()
         return take
-    for kind, topic in ((Odometry, '{VEHICLE}/odom'), (WrenchStamped, '{VEHICLE}/wrench/total'),
-                        (Clock, '/clock')):
+    topics = [(Clock, '/clock')]
+    for name in sys.argv[1:]:
+        topics += [(Odometry, f'{name}/odom'), (WrenchStamped, f'{name}/wrench/total')]
+    for kind, topic in topics:
         node.create_subscription(kind, topic, counter(topic), 10, raw=True)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
@@ -59,7 +72,7 @@ NODE = textwrap.dedent("""
         outputs = self.sinks[0]
         while True:
             outputs.refresh()
-            if len(outputs._active) >= 3:
+            if len(outputs._active) >= WANTED:
                 break
             time.sleep(0.05)
         start = time.perf_counter()
@@ -72,9 +85,9 @@ NODE = textwrap.dedent("""
 """)
 
 
-def bare_real_time_factor(seconds: float) -> float:
+def bare_real_time_factor(scene: str, integrator: str, seconds: float) -> float:
     """Return simulated seconds per wall second of mj_step alone, five steps a call."""
-    simulation = Simulation(SCENE, timestep=0.002, integrator='implicitfast')
+    simulation = Simulation(scene, timestep=0.002, integrator=integrator)
     calls = round(seconds / 0.01)
 
     def loop() -> None:
@@ -84,30 +97,40 @@ def bare_real_time_factor(seconds: float) -> float:
     return seconds / wall_seconds(loop)
 
 
-def measure(seconds: float) -> dict[str, object]:
+def measure(
+    seconds: float, scene: str = SCENE, integrator: str = 'implicitfast'
+) -> dict[str, Any]:
     """Return the node's real-time factor beside that of the bare loop."""
     environment = {
         **os.environ, 'ROS_DOMAIN_ID': DOMAIN, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'
     }  # fmt: skip
-    before = bare_real_time_factor(seconds / 4)
+    vehicles = list(Simulation(scene).vehicles)
+    before = bare_real_time_factor(scene, integrator, seconds / 4)
     listener = subprocess.Popen(
-        [sys.executable, '-c', SUBSCRIBER], stdout=subprocess.PIPE, text=True, env=environment
-    )
+        [sys.executable, '-c', SUBSCRIBER, *vehicles],
+        stdout=subprocess.PIPE, text=True, env=environment,
+    )  # fmt: skip
     assert listener.stdout is not None
     listener.stdout.readline()
     settings = {
-        'scene': SCENE, 'timestep': 0.002, 'integrator': 'implicitfast', 'pacing': 'free',
+        'scene': scene, 'timestep': 0.002, 'integrator': integrator.lower(), 'pacing': 'free',
         'duration': seconds,
     }  # fmt: skip
     arguments = [part for key, value in settings.items() for part in ('-p', f'{key}:={value}')]
+    program = f'WANTED = {1 + 2 * len(vehicles)}\n{NODE}'
     node = subprocess.run(
-        [sys.executable, '-c', NODE, '--ros-args', *arguments],
-        capture_output=True, text=True, env=environment, check=True,
+        [sys.executable, '-c', program, '--ros-args', *arguments],
+        capture_output=True, text=True, env=environment, check=False,
     )  # fmt: skip
+    if node.returncode:
+        listener.kill()  # it would wait for ever
+        raise SystemExit(f'the node ended with code {node.returncode}:\n{node.stderr}')
     simulated, wall, published = eval(node.stdout.splitlines()[-1], {})  # noqa: S307 - our own repr
     received = json.loads(listener.communicate()[0])
-    bare = (before + bare_real_time_factor(seconds / 4)) / 2
+    bare = (before + bare_real_time_factor(scene, integrator, seconds / 4)) / 2
     return {
+        'integrator': integrator,
+        'vehicles': len(vehicles),
         'real_time_factor': simulated / wall,
         'bare_real_time_factor': bare,
         'share_of_bare': simulated / wall / bare,
@@ -117,18 +140,44 @@ def measure(seconds: float) -> dict[str, object]:
     }
 
 
+def fleets(seconds: float) -> dict[str, Any]:
+    """Return the same of 1, 4 and 10 vehicles."""
+    rows = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for count in FLEETS:
+            scene = Path(folder, f'fleet_{count}.yaml')
+            scene.write_text(_FLEET.format(count=count), encoding='utf-8')
+            rows[str(count)] = measure(seconds, str(scene))
+    return rows
+
+
 def main() -> None:
     """Measure and write the result."""
     options = arguments(__doc__, 'node_throughput')
-    runs = [measure(50.0 if options.quick else 300.0) for _ in range(1 if options.quick else 3)]
-    best = max(runs, key=lambda run: run['share_of_bare'])  # type: ignore[arg-type,return-value]
-    print(
-        f'real-time factor {best["real_time_factor"]:.0f}, '
-        f'{best["share_of_bare"]:.0%} of bare mj_step; received {best["received"]}'
-    )
+    seconds, rounds = (50.0, 1) if options.quick else (300.0, 3)
+    runs, rk4 = [], []
+    for _ in range(rounds):  # in turns
+        runs.append(measure(seconds))
+        rk4.append(measure(seconds, integrator='RK4'))
+    best, best_rk4 = (max(rows, key=lambda run: run['share_of_bare']) for rows in (runs, rk4))
+    many = fleets(seconds / 5)
+    for row in (best, best_rk4, *many.values()):
+        print(
+            f'{row["integrator"]}, {row["vehicles"]} vehicle(s): real-time factor '
+            f'{row["real_time_factor"]:.0f}, {row["share_of_bare"]:.0%} of bare mj_step'
+        )
     write(
         options.json,
-        {'target_real_time_factor': 150, 'target_share_of_bare': 0.35, 'best': best, 'runs': runs},
+        {
+            'target_real_time_factor': 150,
+            'target_share_of_bare': 0.35,
+            'target_share_of_bare_rk4': 0.5,
+            'best': best,
+            'best_rk4': best_rk4,
+            'runs': runs,
+            'runs_rk4': rk4,
+            'fleets': many,
+        },
     )
 
 

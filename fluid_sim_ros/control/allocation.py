@@ -10,6 +10,8 @@ from fluid_sim_ros.physics.arrays import Array
 
 #: Axes of a wrench in the order of its six numbers.
 AXES = ('fx', 'fy', 'fz', 'tx', 'ty', 'tz')
+#: A thrust [N] that counts as none.
+_NOTHING = 1e-12
 
 
 class Allocator:
@@ -103,19 +105,26 @@ class Allocator:
 
     def _by_groups(self, wrench_b: Sequence[float]) -> list[float]:
         """Build the wrench up group by group, each as far as the limits allow."""
-        thrusts = [0.0] * len(self._limits)
+        limits = self._limits
+        thrusts = [0.0] * len(limits)
         for rows in self._groups:
             wanted = _times(rows, wrench_b)
             factor = 1.0
-            for want, thrust, (low, high) in zip(wanted, thrusts, self._limits, strict=True):
-                # room has the sign of want, or is 0 up to rounding
-                room = (high if want > 0 else low) - thrust
-                if abs(want) > 1e-12:
-                    factor = min(factor, max(0.0, room / want))
-            self.scale = min(self.scale, factor)
+            for want, thrust, (low, high) in zip(wanted, thrusts, limits, strict=True):
+                if want > _NOTHING:
+                    share = (high - thrust) / want
+                elif want < -_NOTHING:
+                    share = (low - thrust) / want
+                else:
+                    continue
+                if share < factor:
+                    factor = share if share > 0.0 else 0.0  # below 0 by rounding only
+            if factor < self.scale:
+                self.scale = factor
             thrusts = [
-                min(max(thrust + factor * want, low), high)  # min, max: rounding only
-                for want, thrust, (low, high) in zip(wanted, thrusts, self._limits, strict=True)
+                # beyond the limits by rounding only
+                low if (t := thrust + factor * want) < low else (high if t > high else t)
+                for want, thrust, (low, high) in zip(wanted, thrusts, limits, strict=True)
             ]
         return thrusts
 

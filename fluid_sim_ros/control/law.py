@@ -59,4 +59,6 @@ def within(value: float, bound: float) -> float:
         Numbers of one unit, ``bound`` not below 0.
 
     """
-    return min(max(value, -bound), bound)
+    if value < -bound:
+        return -bound
+    return bound if value > bound else value

@@ -123,6 +123,7 @@ class UnderwaterController(ControlLaw):
         self._has_torque = [axis in reached for axis in AXES[3:]]
         self._integral = Integral(gains.integral, gains.max_integral)
         self._angular_integral = Integral(gains.attitude_integral, gains.max_angular_integral)
+        self._heading, self._level = 0.0, rot.from_yaw(0.0)
         super().__init__(self._integral, self._angular_integral)
 
     def step(self, state: State, target: DepthTarget) -> list[float]:
@@ -205,7 +206,9 @@ class UnderwaterController(ControlLaw):
     ) -> rot.Vector3:
         """Return w* - w [rad/s], body axes, w* towards level and the heading."""
         gain, most = self.gains.attitude, self.gains.max_rate
-        ex, ey, ez = rot.error(rot.from_yaw(heading), r_wb)
+        if heading != self._heading:  # most states are answered with the same
+            self._heading, self._level = heading, rot.from_yaw(heading)
+        ex, ey, ez = rot.error(self._level, r_wb)
         return (
             within(gain * ex, most) - omega_b[0],
             within(gain * ey, most) - omega_b[1],

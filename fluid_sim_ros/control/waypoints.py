@@ -115,6 +115,11 @@ class WaypointPlan:
         self._override = waypoint
 
     @property
+    def asks(self) -> bool:
+        """Whether ``target`` looks at where the vehicle is."""
+        return self._index + 1 < len(self._plan)
+
+    @property
     def index(self) -> int:
         """Index of the present waypoint of the plan."""
         return self._index

@@ -117,12 +117,7 @@ class PolledSubscription(Endpoint):
     """
 
     def __init__(
-        self,
-        node: Node,
-        message: str,
-        topic: str,
-        quality: Quality,
-        keep_all: bool = False,
+        self, node: Node, message: str, topic: str, quality: Quality, keep_all: bool = False
     ) -> None:
         self._node = node
         self.type = message
@@ -250,15 +245,19 @@ class WaitSet:
         """
         if self._wait_set is None or len(subscriptions) > self._size:
             self._size = len(subscriptions)
-            context = self._node.context.handle
-            self._wait_set = _rclpy.WaitSet(self._size, 1, 0, 0, 0, 0, context)
-        wait_set = self._wait_set
+            self._wait_set = _rclpy.WaitSet(self._size, 1, 0, 0, 0, 0, self._node.context.handle)
+        wait_set, self._heard = self._wait_set, subscriptions
         wait_set.clear_entities()
         for subscription in subscriptions:
             wait_set.add_subscription(subscription.handle)
         wait_set.add_guard_condition(self._guard.handle)
         wait_set.wait(int(timeout * 1e9))
         return bool(wait_set.get_ready_entities('guard_condition'))
+
+    def only_first(self) -> bool:
+        """Return whether the last ``wait`` has found messages of the first subscription alone."""
+        ready = self._wait_set.get_ready_entities('subscription')
+        return bool(ready == [self._heard[0].handle.pointer])
 
     def wake(self) -> None:
         """End a ``wait`` from another thread."""

@@ -92,7 +92,9 @@ class RovController(ControllerNode):
             Thrusts [N].
 
         """
-        yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
+        yaw = 0.0
+        if self._first is None or self.plan.asks:
+            yaw = rot.yaw_of(rot.from_quaternion(state.quat_wb_wxyz))
         if self._first is None:
             self._first = (-state.position_w[2], yaw)
         depth, heading, surge, sway = self._wanted

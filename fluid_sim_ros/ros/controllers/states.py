@@ -1,6 +1,7 @@
 """Reads what a controller needs from an odometry message, straight from its CDR bytes."""
 
 import struct
+from functools import lru_cache
 from typing import NamedTuple
 
 from fluid_sim_ros.control.state import State
@@ -57,20 +58,27 @@ def read_odometry(data: bytes) -> StampedState:
     if order is None:
         raise CommandError(f'malformed odometry: {len(data)} bytes without a plain CDR header')
     try:
-        seconds, nanoseconds, length = struct.unpack_from(order + 'iII', data, _HEADER)
-        at = 16 + length
-        at += -(at - _HEADER) % 4
-        (length,) = struct.unpack_from(order + 'I', data, at)
-        at += 4 + length
+        (length,) = struct.unpack_from(order + 'I', data, _HEADER + 8)
+        second = 16 + length
+        second += -(second - _HEADER) % 4
+        (length,) = struct.unpack_from(order + 'I', data, second)
+        at = second + 4 + length
         at += -(at - _HEADER) % 8
         if at + _SIZE > len(data):
             raise CommandError(
                 f'malformed odometry: {len(data)} bytes, needs {at + _SIZE} or more'
             )
-        x, y, z, qx, qy, qz, qw = struct.unpack_from(order + '7d', data, at)
-        twist = struct.unpack_from(order + '6d', data, at + _TWIST_AT)
+        numbers = _layout(order, at).unpack_from(data)
     except struct.error:
         raise CommandError(f'malformed odometry: ends at byte {len(data)}') from None
+    seconds, nanoseconds, x, y, z, qx, qy, qz, qw, u, v, w, p, q, r = numbers
     stamp_ns = seconds * 1_000_000_000 + nanoseconds
-    state = State(stamp_ns * 1e-9, (x, y, z), (qw, qx, qy, qz), twist[:3], twist[3:])
+    state = State(stamp_ns * 1e-9, (x, y, z), (qw, qx, qy, qz), (u, v, w), (p, q, r))
     return StampedState(stamp_ns, state)
+
+
+@lru_cache(maxsize=8)
+def _layout(order: str, at: int) -> struct.Struct:
+    """Return the layout of stamp, pose and twist where the pose begins at a byte."""
+    names, covariance = at - _HEADER - 8, _TWIST_AT - 8 * 7
+    return struct.Struct(f'{order}{_HEADER}xiI{names}x7d{covariance}x6d')

@@ -86,9 +86,19 @@ class VelocityCommands:
         self._since: float | None = None
         self._said: set[str] = set()
 
-    def take(self) -> None:
-        """Take the newest message; a wrong one is rejected with a word."""
+    def take(self, asked: bool = True) -> None:
+        """
+        Take the newest message; a wrong one is rejected with a word.
+
+        Parameters
+        ----------
+        asked
+            A message may be there.
+
+        """
         self._rejected.flush()
+        if not asked:
+            return
         try:
             if data := self._plain.take():
                 self._accept(*(pair.tolist() for pair in read_pair(data)))
