@@ -198,6 +198,7 @@ class Diagnostics:
             for warning in _LIMIT_WARNINGS
         }
         balance = self._simulation.energy_balance()
+        # the loop asks them at each boundary; a node that stands still speaks by this alone
         self.watchdogs.write(self._simulation)
         values = {
             'kinetic_energy_J': f'{balance.kinetic:.6g}',
