@@ -1,7 +1,7 @@
 """PX4's logs (ULog), by pyulog."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -14,9 +14,30 @@ from fluid_sim_ros.schema.limits import limit
 MAGIC = b'ULog\x01\x12\x35'
 #: Length of the head of a file [bytes].
 _HEADER = 16
+#: Most reads: an honest log takes two of each message, which has 3 bytes or more.
+_READS_PER_BYTE, _READS = 4, 100_000
 #: Facts that are shown, by their key in the log.
 _ABOUT = {'ver_hw': 'hardware', 'sys_name': 'software', 'ver_sw_branch': 'branch'}
 _PARAMETERS = {'SYS_AUTOSTART': 'airframe', 'MAV_TYPE': 'MAV_TYPE'}
+
+
+class _Bounded:
+    """
+    A file that is read no more often than an honest log needs.
+
+    In a damaged one pyulog 1.2 goes back to the same place for ever.
+    """
+
+    def __init__(self, stream: BinaryIO, size: int) -> None:
+        self._read = stream.read
+        self.seek, self.tell, self.close = stream.seek, stream.tell, stream.close
+        self._left = _READS_PER_BYTE * size + _READS
+
+    def read(self, size: int = -1) -> bytes:
+        self._left -= 1
+        if self._left < 0:
+            raise FlightError('it leads back to the same place again and again')
+        return self._read(size)
 
 
 def read_ulog(path: Path) -> RawLog:
@@ -43,8 +64,8 @@ def read_ulog(path: Path) -> RawLog:
         from pyulog import ULog
 
     try:
-        with silent():
-            log: Any = ULog(str(path))
+        with silent(), open_data(path) as stream:
+            log: Any = ULog(_Bounded(stream, path.stat().st_size))
     except Exception as error:  # noqa: BLE001  pyulog raises anything on a damaged log
         raise FlightError(f'{path}: no ULog that pyulog reads ({reason_of(error)})') from None
     streams = {}

@@ -9,7 +9,9 @@ from fluid_sim_ros.flights.about import about_flight, refuse_unclear, require_co
 from fluid_sim_ros.flights.flight import FlightError
 from fluid_sim_ros.flights.mapping import read_mapping
 from fluid_sim_ros.flights.reader import read_flight
+from fluid_sim_ros.flights.ulog import read_ulog
 from test.support import flight_logs as logs
+from test.support.hostile.foreign.kinds import foreign_file
 
 FLIGHT = logs.motion()
 
@@ -259,3 +261,10 @@ def test_a_log_of_an_autopilot_that_ends_within_a_message_says_so(tmp_path, kind
         faults[-1:] if cut else ()
     )
     assert bool(faults) == bool(cut)
+
+
+def test_a_ulog_that_leads_back_to_the_same_place_ends(tmp_path):
+    """Pyulog alone would read it for ever; found by the hostile files."""
+    path = foreign_file('ulg', 213, tmp_path, tmp_path / 'kept')
+    with pytest.raises(FlightError, match='no ULog that pyulog reads'):
+        read_ulog(path)
