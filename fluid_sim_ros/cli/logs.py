@@ -75,13 +75,15 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
     from rich.console import Group
     from rich.table import Column, Table
 
-    from fluid_sim_ros.cli.reality.info import flight_info, is_foreign
+    from fluid_sim_ros.cli.reality.info import flight_info, is_foreign, is_sound_bag
 
     if arguments.mapping or is_foreign(Path(arguments.log)):
         return flight_info(arguments, show)
     from fluid_sim_ros.recording.inspect import info
 
     result = info(arguments.log)
+    if is_sound_bag(Path(arguments.log), result):
+        return flight_info(arguments, show)
     table = Table(
         Column('topic', no_wrap=True), Column('type', overflow='fold'), 'messages', 'rate',
         title=plain_text([

@@ -23,15 +23,33 @@ def is_foreign(path: Path) -> bool:
         Of the log.
 
     """
-    from fluid_sim_ros.flights.bag import of_others
     from fluid_sim_ros.flights.reader import ENDINGS
 
+    if path.is_dir():
+        return not any(path.glob('*.mcap')) and any(path.glob('*.db3'))
+    return path.suffix.lower() in ENDINGS and path.suffix.lower() != '.mcap'
+
+
+def is_sound_bag(path: Path, result: dict[str, Any]) -> bool:
+    """
+    Return whether an MCAP file is whole, holds messages, and is of other software.
+
+    Parameters
+    ----------
+    path
+        Of the log, or its folder.
+    result
+        As ``recording.inspect.info`` returns it: what is damaged is told by that alone.
+
+    """
+    from fluid_sim_ros.flights.bag import of_others
+
+    if result['faults'] or result['run'] is not None:
+        return False
+    if not any(topic['messages'] for topic in result['topics'].values()):
+        return False
     files = sorted(path.glob('*.mcap')) if path.is_dir() else [path]
-    if path.is_dir() and not files:
-        return any(path.glob('*.db3'))
-    if files[0].suffix.lower() == '.mcap':
-        return files[0].is_file() and of_others(files[0])
-    return path.suffix.lower() in ENDINGS
+    return of_others(files[0])
 
 
 def mapping_of(path: Path | None) -> 'FlightMap | None':
