@@ -23,6 +23,7 @@ from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import comparable_scene, drive
+from fluid_sim_ros.reality.fitting.delays import longest, told
 from fluid_sim_ros.reality.fitting.doubt import doubts
 from fluid_sim_ros.reality.fitting.shooting import Shots
 from fluid_sim_ros.reality.fitting.solver import Report, Solver, Task, sandwich
@@ -160,19 +161,20 @@ def cut_shots(flights: Sequence[Flight], task: Task) -> tuple[list[Shots], list[
     """
     scene = comparable_scene(task.model)
     shots, lines = [], []
+    spare = longest(task.parameters, task.start)
     for flight in flights:
         require_comparable(flight)
         lines += refuse_unclear(flight)
         driven = drive(scene, flight, task.outputs, settings=task.settings)
         flyer = Flyer(driven, 1)
-        windows = cut(flight, task.length, begin=task.begin, end=task.end, apart=task.length,
-                      before=lead_in(driven, flyer.timestep))  # fmt: skip
+        windows = cut(flight, task.length + 2 * spare, begin=task.begin, end=task.end,
+                      apart=task.length, before=lead_in(driven, flyer.timestep))  # fmt: skip
         windows, left = airborne(windows, flyer)
         windows = with_parts(windows, driven)
         lines += [f'{flight.name}: {n} windows {why}' for why, n in left.items()]
         lines += [f'{flight.name}: {note}' for note in driven.notes]
         step = max(1, round(task.sample / flyer.timestep)) * flyer.timestep
-        shots.append(Shots.of(windows, step))
+        shots.append(Shots.of(windows, step, spare))
     return shots, lines
 
 
@@ -208,7 +210,8 @@ def _result(
     after = sum(float((each.residual**2).sum()) for each in linear)
     number = sum(each.residual.size for each in linear)
     rms = (float(np.sqrt(before / number)), float(np.sqrt(after / number)))
-    lines = [*lines, *_judged(solver.chosen, values, errors * solver.scales, correlations)]
+    lines = [*lines, *told(solver.chosen, values)]
+    lines += _judged(solver.chosen, values, errors * solver.scales, correlations)
     finite = np.where(np.isfinite(errors), errors * solver.scales, 0.0)
     return Fitted(tuple(solver.chosen), values, finite, np.nan_to_num(correlations), rms,
                       solver.sigmas, windows, count, tuple(lines))  # fmt: skip

@@ -23,6 +23,7 @@ MANOEUVRES = {
     'quadratic_damping': 'fast steady motion along the axis',
     'volume': 'a free rise or descent without thrust',
     'center_of_buoyancy': 'a free decay in roll and pitch',
+    'delay': 'quick turns and stops; with time_constant, commands that change within the lag',
     'wind': 'flight in several directions', 'current': 'motion in several directions',
 }  # fmt: skip
 

@@ -130,11 +130,13 @@ def _keeper(path: Path | None) -> Callable[[dict[str, float]], None]:
 def _before_after(flight: 'Flight', task: 'Task', found: 'Fitted') -> dict[str, Any]:
     """Return the errors of a flight by horizon, with the model as it is and as it was fitted."""
     from fluid_sim_ros.reality.compare import Part, compare
+    from fluid_sim_ros.reality.fitting.delays import in_time
     from fluid_sim_ros.reality.parameters import edit_of
 
     part = Part(task.begin, task.end)
     edit = edit_of(found.parameters, found.values)
     before = compare(flight, task.model, task.outputs, part).numbers
+    flight = in_time(flight, found.parameters, found.values)
     after = compare(flight, task.model, task.outputs, part, edit).numbers
     return {
         'before': before['horizons'],

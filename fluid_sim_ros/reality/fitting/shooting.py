@@ -17,6 +17,7 @@ import numpy as np
 from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import Driven
+from fluid_sim_ros.reality.fitting.delays import seen
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.spinning import first_speeds
 from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, RATES, VELOCITY, Windows
@@ -69,6 +70,24 @@ def moved(states: Array, by: Array) -> Array:
     return out
 
 
+@dataclass(frozen=True)
+class Trial:
+    """
+    What values of the parameters make of a flight.
+
+    Attributes
+    ----------
+    driven
+        The model, with its parameters.
+    late
+        How late position, attitude, velocity and rates are [s], shape (4,); None: not at all.
+
+    """
+
+    driven: Driven
+    late: Array | None = None
+
+
 @dataclass
 class Shots:
     """
@@ -79,7 +98,8 @@ class Shots:
     windows
         They.
     after
-        Times in a window at which the state is compared [s], the first at 0, shape (m,).
+        Times in a window at which the state is compared [s], shape (m,); the first is at 0, but
+        where signals may be late.
     wanted
         Measured then, shape (w, m, 13).
     start
@@ -93,7 +113,7 @@ class Shots:
     start: Array
 
     @classmethod
-    def of(cls, windows: Windows, sample: float) -> 'Shots':
+    def of(cls, windows: Windows, sample: float, spare: float = 0.0) -> 'Shots':
         """
         Return the shots of windows, starting at the measured states.
 
@@ -103,12 +123,15 @@ class Shots:
             Of a flight.
         sample
             Distance of the compared states [s].
+        spare
+            Time at both ends of a window that is flown and not compared [s].
 
         """
-        count = max(1, int(windows.length / sample + 1e-9))
-        after = np.arange(count + 1, dtype=np.float64) * sample
+        count = max(1, int((windows.length - 2 * spare) / sample + 1e-9))
+        after = spare + np.arange(count + 1, dtype=np.float64) * sample
         wanted = windows.measured(after)
-        return cls(windows, after, wanted, wanted[:, 0].copy())
+        start = windows.measured(0.0) if spare else wanted[:, 0].copy()
+        return cls(windows, after, wanted, start)
 
 
 @dataclass(frozen=True)
@@ -142,23 +165,24 @@ class Shooter:
         self._by_state: Array | None = None
         self._spun: Array | None = None
 
-    def residual(self, driven: Driven, start: Array | None = None) -> Array:
+    def residual(self, trial: Trial, start: Array | None = None) -> Array:
         """
         Return weighted errors of all windows, shape (w, n).
 
         Parameters
         ----------
-        driven
+        trial
             The model, with its parameters.
         start
             States at the begins; None: those of the shots.
 
         """
-        flyer = Flyer(driven, 1)
-        return self._fly(flyer, self.shots.start if start is None else start, self._spin(flyer))
+        flyer = Flyer(trial.driven, 1)
+        start = self.shots.start if start is None else start
+        return self._fly(flyer, trial.late, start, self._spin(flyer))
 
     def linear(
-        self, driven: Driven, others: Sequence[Driven], steps: Sequence[float], fresh: bool,
+        self, trial: Trial, others: Sequence[Trial], steps: Sequence[float], fresh: bool,
         pool: ThreadPoolExecutor,
     ) -> Linear:  # fmt: skip
         """
@@ -166,7 +190,7 @@ class Shooter:
 
         Parameters
         ----------
-        driven
+        trial
             The model at the present parameters.
         others
             At each parameter moved by its step.
@@ -184,9 +208,9 @@ class Shooter:
 
         """
         start = self.shots.start
-        flyer = Flyer(driven, 1)
+        flyer = Flyer(trial.driven, 1)
         spun = self._spin(flyer)
-        base = self._fly(flyer, start, spun)
+        base = self._fly(flyer, trial.late, start, spun)
         later = [pool.submit(self.residual, other) for other in others]
         if not self.free:
             self._by_state = np.zeros((*base.shape, SIZE))
@@ -195,7 +219,8 @@ class Shooter:
             def along(i: int) -> Array:
                 by = np.zeros(SIZE)
                 by[i] = _STATE_STEPS[i]
-                found = self._fly(Flyer(driven, 1), moved(start, by), spun)
+                flown = Flyer(trial.driven, 1)
+                found = self._fly(flown, trial.late, moved(start, by), spun)
                 change: Array = (found - base) / _STATE_STEPS[i]
                 return change
 
@@ -207,11 +232,15 @@ class Shooter:
     def _spin(self, flyer: Flyer) -> Array | None:
         return first_speeds(flyer, self.shots.windows, self.shots.start)
 
-    def _fly(self, flyer: Flyer, start: Array, spun: Array | None) -> Array:
+    def _fly(self, flyer: Flyer, late: Array | None, start: Array, spun: Array | None) -> Array:
         shots, step = self.shots, flyer.timestep
         every = [max(1, round(seconds / step)) for seconds in shots.after[1:]]
+        if late is not None:
+            every = list(range(1, round(shots.windows.length / step) + 1))
         controls = shots.windows.controls(flyer.driven, step)[:, : every[-1]]
         full = flyer.states(start, shots.windows, spun)
         found = np.concatenate([start[:, None], flyer.fly(full, controls, every)], axis=1)
+        if late is not None:
+            found = seen(found, shots.after, late, step)
         off: Array = np.nan_to_num(error_vectors(found, shots.wanted) * self.weights, nan=1e6)
         return off.reshape(len(start), -1) * self.trust

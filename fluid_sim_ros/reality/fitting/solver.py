@@ -10,8 +10,9 @@ from fluid_sim_ros.errors import ModelError
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.reality.driven import Driven, comparable_scene, drive
-from fluid_sim_ros.reality.fitting.shooting import Linear, Shooter, Shots, moved
+from fluid_sim_ros.reality.driven import comparable_scene, drive
+from fluid_sim_ros.reality.fitting.delays import delays_of
+from fluid_sim_ros.reality.fitting.shooting import Linear, Shooter, Shots, Trial, moved
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import edit_of
 from fluid_sim_ros.schema.settings import RunSettings
@@ -94,14 +95,15 @@ class Solver:
         free = self.task.start == 'free'
         self.shooters = [Shooter(shot, weights, free) for shot in self.shots]
 
-    def _driven(self, flight: Flight, values: Array) -> Driven:
-        edit = edit_of(self.chosen, values)
-        return drive(self.scene, flight, self.task.outputs, settings=self.task.settings, edit=edit)
+    def _trial(self, flight: Flight, values: Array) -> Trial:
+        edit, task = edit_of(self.chosen, values), self.task
+        driven = drive(self.scene, flight, task.outputs, settings=task.settings, edit=edit)
+        return Trial(driven, delays_of(self.chosen, values))
 
     def _cost(self, values: Array, starts: list[Array]) -> float:
         total = 0.0
         for flight, shooter, start in zip(self.flights, self.shooters, starts, strict=True):
-            total += float((shooter.residual(self._driven(flight, values), start) ** 2).sum())
+            total += float((shooter.residual(self._trial(flight, values), start) ** 2).sum())
         return total
 
     def linear(self, values: Array, fresh: bool, pool: ThreadPoolExecutor) -> list[Linear]:
@@ -126,9 +128,9 @@ class Solver:
             for i, step in enumerate(steps):
                 shifted = values.copy()
                 shifted[i] += step
-                others.append(self._driven(flight, shifted))
-            driven = self._driven(flight, values)
-            found.append(shooter.linear(driven, others, steps.tolist(), fresh, pool))
+                others.append(self._trial(flight, shifted))
+            trial = self._trial(flight, values)
+            found.append(shooter.linear(trial, others, steps.tolist(), fresh, pool))
         return found
 
     def solve(
@@ -201,7 +203,7 @@ class Solver:
         """
         for flight, shooter in zip(self.flights, self.shooters, strict=True):
             shooter.trust[:] = 1.0
-            off = shooter.residual(self._driven(flight, values))
+            off = shooter.residual(self._trial(flight, values))
             size = np.sqrt((off**2).mean(axis=1, keepdims=True))
             shooter.trust = np.minimum(1.0, 1.5 * np.median(size) / np.maximum(size, 1e-300))
 
@@ -217,7 +219,7 @@ class Solver:
         """
         squares, number = np.zeros(4), 0
         for flight, shooter in zip(self.flights, self.shooters, strict=True):
-            off = shooter.residual(self._driven(flight, values)).reshape(-1, 4, 3)
+            off = shooter.residual(self._trial(flight, values)).reshape(-1, 4, 3)
             squares += (off**2).mean(axis=2).sum(axis=0)
             number += len(off)
         left: Array = np.sqrt(squares / number) * self.sigmas
