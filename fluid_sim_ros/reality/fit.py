@@ -24,9 +24,12 @@ from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.fitting.delays import longest, told
+from fluid_sim_ros.reality.fitting.disturbance import Knot
+from fluid_sim_ros.reality.fitting.disturbance import told as told_of_knots
 from fluid_sim_ros.reality.fitting.doubt import doubts
+from fluid_sim_ros.reality.fitting.normal import sandwich
 from fluid_sim_ros.reality.fitting.shooting import Shots
-from fluid_sim_ros.reality.fitting.solver import Report, Solver, Task, sandwich
+from fluid_sim_ros.reality.fitting.solver import Report, Solver, Task
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import find_parameters
@@ -124,7 +127,9 @@ def fit(
     shots, lines = cut_shots(flights, task)
     sigmas = _sigmas(shots)
     solver = Solver(flights, task, chosen, shots, sigmas)
+    chosen = solver.chosen
     values = np.array([task.values.get(p.name, p.value) for p in chosen])
+    solver.require_felt(values)
     if task.start == 'measured':  # what noise alone would weigh is far below what is left over
         sigmas = np.maximum(solver.left_over(values), sigmas)
         solver.weigh(sigmas)
@@ -199,6 +204,8 @@ def _result(
     ) -> Fitted:  # fmt: skip
     linear = solver.linear(values, True, pool)
     curved, score, windows = sandwich(linear, solver.scales)
+    walked = solver.walked()
+    curved, score = curved + walked, score + walked
     inverse = np.linalg.pinv(curved, rcond=1e-12, hermitian=True)
     covariance = inverse @ score @ inverse * windows / max(1, windows - 1)
     # what the flights do not touch has no curvature: no error that means anything
@@ -207,10 +214,15 @@ def _result(
     errors[~touched] = np.inf
     size = np.where(errors > 0, errors, 1.0)
     correlations = covariance / np.outer(size, size)
+    knots = np.array([isinstance(p, Knot) for p in solver.chosen])
+    # few windows touch a knot: their scatter alone may be small by chance
+    least = np.sqrt(np.maximum(np.diag(inverse), 0.0))
+    errors[knots] = np.maximum(errors, least)[knots]
     after = sum(float((each.residual**2).sum()) for each in linear)
     number = sum(each.residual.size for each in linear)
     rms = (float(np.sqrt(before / number)), float(np.sqrt(after / number)))
     lines = [*lines, *told(solver.chosen, values)]
+    lines += told_of_knots(solver.chosen, values, errors * solver.scales)
     lines += _judged(solver.chosen, values, errors * solver.scales, correlations)
     finite = np.where(np.isfinite(errors), errors * solver.scales, 0.0)
     return Fitted(tuple(solver.chosen), values, finite, np.nan_to_num(correlations), rms,
@@ -226,7 +238,7 @@ def _judged(
         size = max(abs(values[i]), 1e-3 * parameter.scale)
         if not np.isfinite(errors[i]):
             lines.append(f'{parameter.name}: the flights do not touch it; {parameter.manoeuvre}')
-        elif errors[i] > _UNFELT * size:
+        elif errors[i] > _UNFELT * size and not isinstance(parameter, Knot):  # may well be 0
             lines.append(
                 f'{parameter.name}: {values[i]:.3g} +- {errors[i]:.2g} {parameter.unit}, not told '
                 f'from noise; what would tell: {parameter.manoeuvre}'
@@ -234,6 +246,8 @@ def _judged(
         if values[i] in (parameter.low, parameter.high):
             lines.append(f'{parameter.name}: stands at its bound {values[i]:.4g}')
         for j in range(i):
+            if isinstance(parameter, Knot) and isinstance(chosen[j], Knot):
+                continue  # neighbours go together: they walk
             if abs(correlations[i, j]) > _ALIKE and np.isfinite(errors[[i, j]]).all():
                 lines.append(
                     f'{chosen[j].name} and {parameter.name} are not told apart (correlation '

@@ -24,6 +24,7 @@ MANOEUVRES = {
     'volume': 'a free rise or descent without thrust',
     'center_of_buoyancy': 'a free decay in roll and pitch',
     'delay': 'quick turns and stops; with time_constant, commands that change within the lag',
+    'slow_wind': 'flight in several directions', 'slow_current': 'motion in several directions',
     'wind': 'flight in several directions', 'current': 'motion in several directions',
 }  # fmt: skip
 

@@ -10,6 +10,7 @@ from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.plugins.config import THRUSTER
 from fluid_sim_ros.reality.driven import Edit
 from fluid_sim_ros.reality.fitting.delays import delay_parameters
+from fluid_sim_ros.reality.fitting.disturbance import slow_parameters
 from fluid_sim_ros.reality.fluid_parameters import body_parameters, flow_parameters
 from fluid_sim_ros.reality.parameter import Parameter, text_of, words_of
 from fluid_sim_ros.scene import Scene
@@ -82,7 +83,8 @@ def all_parameters(scene: Scene) -> list[Parameter]:
         *_inertial(spec, base),
         *body_parameters(spec, base),
     ]
-    return [*found, *flow_parameters(spec, compiled.streams), *delay_parameters()]
+    found += flow_parameters(spec, compiled.streams)
+    return [*found, *slow_parameters(compiled.streams), *delay_parameters()]
 
 
 def edit_of(parameters: Sequence[Parameter], values: Iterable[float]) -> Edit:

@@ -10,8 +10,12 @@ from fluid_sim_ros.simulation import Simulation
 from test.support.flight_logs import csv_text
 
 
-def x500_table(seconds=4.0, every=5, seed=3, noise=None):
-    """Return the columns of a flight of the x500; ``noise``: standard deviation by block."""
+def x500_table(seconds=4.0, every=5, seed=3, noise=None, wind=None):
+    """
+    Return the columns of a flight of the x500.
+
+    ``noise``: standard deviation by block; ``wind``: of a time [s], east, north and up [m/s].
+    """
     scene = Scene.load('x500')
     scene = replace(scene, schedule=())
     simulation = Simulation(scene)
@@ -25,6 +29,8 @@ def x500_table(seconds=4.0, every=5, seed=3, noise=None):
     phase = rng.uniform(0, 2 * np.pi, 6)
     for step in range(steps):
         time = step * simulation.timestep
+        if wind is not None:
+            simulation.set_wind(wind(time))
         wave = np.sin(2 * np.pi * np.array([0.7, 1.1, 0.3, 0.5, 0.9, 0.4]) * time + phase)
         climb = 1 + 0.1 * wave[0] - 0.05 * (data.qpos[2] - 30) - 0.05 * data.qvel[2]
         thrust = hover * climb + _held(data, 0.5 * wave[2:4], wave[1])

@@ -56,6 +56,14 @@ def add_parser(commands: Any, show: Show) -> None:
         help='states at the begin of windows: unknown, too (default), or as measured, which '
         'predicts best where the model is not quite right',
     )  # fmt: skip
+    parser.add_argument(
+        '--knots', type=above(0), default=5.0, metavar='S',
+        help='longest time between two knots of slow_wind or slow_current [s] (default 5)',
+    )  # fmt: skip
+    parser.add_argument(
+        '--walk', type=above(0), default=0.1, metavar='W',
+        help='how strongly they walk at random [m/s per square root of a second] (default .1)',
+    )  # fmt: skip
     parser.add_argument('--from', dest='begin', type=float, default=0.0, metavar='S')
     parser.add_argument('--to', dest='end', type=float, default=float('inf'), metavar='S')
     parser.add_argument(
@@ -87,6 +95,7 @@ def _fit(arguments: argparse.Namespace, show: Show) -> int:
         arguments.model, tuple(arguments.parameters), arguments.window, begin=arguments.begin,
         end=arguments.end, outputs=outputs_of(flights[0], mapping, arguments.model),
         values=_kept(arguments.resume), start=arguments.start,
+        knots=arguments.knots, walk=arguments.walk,
     )  # fmt: skip
     with progress_of_parts() as report:
         found = fit(flights, task, report, _keeper(arguments.resume))

@@ -10,7 +10,8 @@ import numpy as np
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import cut_shots
-from fluid_sim_ros.reality.fitting.solver import Solver, Task, sandwich
+from fluid_sim_ros.reality.fitting.normal import sandwich
+from fluid_sim_ros.reality.fitting.solver import Solver, Task
 from fluid_sim_ros.reality.parameters import find_parameters
 
 #: Noise of position, attitude, velocity and rates that is assumed [m], [rad], [m/s], [rad/s].
@@ -43,9 +44,11 @@ def foreseen(flight: Flight, model: str, names: Sequence[str]) -> dict[str, Any]
     chosen = find_parameters(comparable_scene(model), task.parameters)
     shots, _ = cut_shots([flight], task)
     solver = Solver([flight], task, chosen, shots, np.array(NOISE))
+    chosen = solver.chosen
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         linear = solver.linear(np.array([p.value for p in chosen]), True, pool)
     curved, _, _ = sandwich(linear, solver.scales)
+    curved += solver.walked()
     inverse = np.linalg.pinv(curved, rcond=1e-14, hermitian=True)
     touched = np.diag(curved) > 1e-12 * np.diag(curved).max()
     errors = np.where(touched, np.sqrt(np.maximum(np.diag(inverse), 0)) * solver.scales, np.inf)

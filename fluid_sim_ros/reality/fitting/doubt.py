@@ -7,6 +7,7 @@ import numpy as np
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import comparable_scene, drive
+from fluid_sim_ros.reality.fitting.disturbance import with_flow
 from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
@@ -70,7 +71,7 @@ def _off(
 ) -> float:
     """Return the rms of what the specific force along z lacks, over g."""
     scene = comparable_scene(task.model)
-    edit = edit_of(chosen, values)
+    edit = with_flow(edit_of(chosen, values), flight, chosen, values)
     driven = drive(scene, flight, task.outputs, settings=task.settings, edit=edit)
     found = summary(residuals(Flyer(driven, 1), part))
     return float(np.nan_to_num(found['specific_force']['z_rms_of_g'], nan=np.inf))

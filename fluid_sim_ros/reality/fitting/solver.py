@@ -12,6 +12,14 @@ from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.fitting.delays import delays_of
+from fluid_sim_ros.reality.fitting.disturbance import (
+    Knot,
+    require_felt,
+    walks,
+    with_flow,
+    with_knots,
+)
+from fluid_sim_ros.reality.fitting.normal import step_of
 from fluid_sim_ros.reality.fitting.shooting import Linear, Shooter, Shots, Trial, moved
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import edit_of
@@ -35,7 +43,8 @@ class Task:
 
     ``start``: ``free`` (states at the begins are unknown, too) or ``measured`` (a window starts
     where the log says, as in a comparison: best prediction, with a response that is too weak
-    where the signals are noisy).
+    where the signals are noisy). ``knots``: longest time between those of a slow wind or current
+    [s]; ``walk``: how strongly it walks at random [m/s per square root of a second].
     """
 
     model: str
@@ -48,6 +57,8 @@ class Task:
     outputs: tuple[Output, ...] = ()
     values: dict[str, float] = field(default_factory=dict)
     start: str = 'free'
+    knots: float = 5.0
+    walk: float = 0.1
 
 
 class Solver:
@@ -73,7 +84,11 @@ class Solver:
         self, flights: Sequence[Flight], task: Task, chosen: list[Parameter],
         shots: list[Shots], sigmas: Array,
     ) -> None:  # fmt: skip
-        self.flights, self.task, self.chosen, self.shots = flights, task, chosen, shots
+        self.flights, self.task, self.shots = flights, task, shots
+        self.chosen = with_knots(chosen, [shot.windows for shot in shots], task.knots)
+        chosen = self.chosen
+        #: Makes residuals of steps from knot to knot of the values.
+        self.walks = walks(chosen, task.walk)
         self.scales = np.array([p.scale for p in chosen])
         self.low = np.array([p.low for p in chosen])
         self.high = np.array([p.high for p in chosen])
@@ -96,12 +111,15 @@ class Solver:
         self.shooters = [Shooter(shot, weights, free) for shot in self.shots]
 
     def _trial(self, flight: Flight, values: Array) -> Trial:
-        edit, task = edit_of(self.chosen, values), self.task
+        task = self.task
+        edit = edit_of(self.chosen, values)
+        if task.settings.fluid != 'none':  # as with a recorded flow
+            edit = with_flow(edit, flight, self.chosen, values)
         driven = drive(self.scene, flight, task.outputs, settings=task.settings, edit=edit)
         return Trial(driven, delays_of(self.chosen, values))
 
     def _cost(self, values: Array, starts: list[Array]) -> float:
-        total = 0.0
+        total = float(((self.walks @ values) ** 2).sum())
         for flight, shooter, start in zip(self.flights, self.shooters, starts, strict=True):
             total += float((shooter.residual(self._trial(flight, values), start) ** 2).sum())
         return total
@@ -161,11 +179,13 @@ class Solver:
         for count in range(_MOST_STEPS):
             report('fit', count, _MOST_STEPS)
             linear = self.linear(values, count < 2, pool)
+            steps = self.walks @ values
             cost = sum(float((each.residual**2).sum()) for each in linear)
+            cost += float((steps**2).sum())
             if count == 0:
                 first = cost
             for _ in range(8):
-                step, moves = _step(linear, self.scales, damping)
+                step, moves = step_of(linear, self.scales, damping, self.walks, steps)
                 if self.task.start == 'measured':  # windows grow away from the log: no leaps
                     step *= min(1.0, _LEAP / np.abs(step / self.scales).max())
                 trial = np.clip(values + step, self.low, self.high)
@@ -190,6 +210,40 @@ class Solver:
             if change.max() < _SETTLED or cost - new < _STILL * cost:
                 return values, count + 1, first
         return values, _MOST_STEPS, first
+
+    def walked(self) -> Array:
+        """Return the curvature that steps from knot to knot add, in scales, shape (p, p)."""
+        steps = self.walks * self.scales
+        curved: Array = steps.T @ steps
+        return curved
+
+    def require_felt(self, values: Array) -> None:
+        """
+        Refuse a slow wind or current that nothing feels.
+
+        Parameters
+        ----------
+        values
+            Of the parameters, shape (p,).
+
+        Raises
+        ------
+        ConfigError
+            Naming it.
+
+        """
+        for name in dict.fromkeys(p.of for p in self.chosen if isinstance(p, Knot)):
+            by = [float(isinstance(p, Knot) and p.of == name) for p in self.chosen]
+            off, still = (
+                np.concatenate(
+                    [
+                        shooter.residual(self._trial(flight, each)).ravel()
+                        for flight, shooter in zip(self.flights, self.shooters, strict=True)
+                    ]
+                )
+                for each in (values + by, values)
+            )
+            require_felt(name, off, still)
 
     def distrust(self, values: Array) -> None:
         """
@@ -224,49 +278,3 @@ class Solver:
             number += len(off)
         left: Array = np.sqrt(squares / number) * self.sigmas
         return left
-
-
-def _reduced(each: Linear, scales: Array) -> tuple[Array, Array, Array, Array]:
-    """Return derivatives with the states taken out, by window, and what the states need."""
-    jx, jp = each.by_state, each.by_parameter * scales
-    inner = np.einsum('wni,wnj->wij', jx, jx) + 1e-9 * np.eye(jx.shape[2])
-    cross = np.linalg.solve(inner, np.einsum('wni,wnp->wip', jx, jp))
-    rest = np.linalg.solve(inner, np.einsum('wni,wn->wi', jx, each.residual)[..., None])[..., 0]
-    jp_free = jp - np.einsum('wni,wip->wnp', jx, cross)
-    r_free = each.residual - np.einsum('wni,wi->wn', jx, rest)
-    return jp_free, r_free, cross, rest
-
-
-def _step(linear: list[Linear], scales: Array, damping: float) -> tuple[Array, list[Array]]:
-    """Return the step of the parameters, and of each flight's states."""
-    parts = [_reduced(each, scales) for each in linear]
-    curved = sum(np.einsum('wnp,wnq->pq', jp, jp) for jp, _, _, _ in parts)
-    slope = sum(np.einsum('wnp,wn->p', jp, r) for jp, r, _, _ in parts)
-    curved = np.asarray(curved)
-    ridge = damping * np.diag(np.maximum(np.diag(curved), 1e-12 * np.diag(curved).max()))
-    step = -np.linalg.lstsq(curved + ridge, np.asarray(slope), rcond=1e-13)[0]
-    moves = [-rest - np.einsum('wip,p->wi', cross, step) for _, _, cross, rest in parts]
-    return step * scales, moves
-
-
-def sandwich(linear: list[Linear], scales: Array) -> tuple[Array, Array, int]:
-    """
-    Return curvature and the scatter of the windows' scores, in scales; and their number.
-
-    Parameters
-    ----------
-    linear
-        At the least squares.
-    scales
-        Of the parameters, shape (p,).
-
-    """
-    count = len(scales)
-    curved, score, windows = np.zeros((count, count)), np.zeros((count, count)), 0
-    for each in linear:
-        jp, r, _, _ = _reduced(each, scales)
-        curved += np.einsum('wnp,wnq->pq', jp, jp)
-        each_score = np.einsum('wnp,wn->wp', jp, r)
-        score += each_score.T @ each_score
-        windows += len(r)
-    return curved, score, windows
