@@ -157,14 +157,15 @@ def _before_after(flight: 'Flight', task: 'Task', found: 'Fitted') -> dict[str, 
 
 def _table(result: dict[str, Any], files: list[Path]) -> Any:
     from rich.console import Group
-    from rich.table import Table
+    from rich.table import Column, Table
 
     rms = result['residual_rms']
     title = f'{result["windows"]} windows, residual {rms["before"]:.3g} to {rms["after"]:.3g}'
-    table = Table('parameter', 'value', 'standard error', 'before', 'unit', title=title)
-    for name, p in result['parameters'].items():
+    name = Column('parameter', overflow='fold')  # what tells two knots apart stands at the end
+    table = Table(name, 'value', 'standard error', 'before', 'unit', title=title)
+    for key, p in result['parameters'].items():
         table.add_row(
-            name, f'{p["value"]:.6g}', f'{p["standard_error"]:.2g}', f'{p["before"]:.6g}',
+            key, f'{p["value"]:.6g}', f'{p["standard_error"]:.2g}', f'{p["before"]:.6g}',
             p['unit'],
         )  # fmt: skip
     lines = list(result['lines'])
