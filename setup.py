@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Package metadata and the build of the MuJoCo plugin library (pip and colcon both read this)."""
 
 import os

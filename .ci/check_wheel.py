@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Check that a built wheel is whole: its files, its tag, and what its library looks for."""
 
 import io

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Write fluid_sim_ros/messages/definitions.json from an installed ROS 2 Jazzy (or its wheels).
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Print the notes of one version, from CHANGELOG.rst, as Markdown for a release."""
 
 import re

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Asks the search of the built site, by its own code: node search.mjs SITE, questions as JSON on
 // standard input; answers with the pages of the hits of each, best first.
 import fs from 'node:fs';

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Write models/shapes/unit_sphere.stl, of which the URDF of a vehicle makes its ellipsoids."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Settings of the documentation site; `make site` builds it, Read the Docs and rosdoc2 as well."""
 
 import re

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Finds config/ and models/ in a source tree, a pip installation and a colcon installation."""
 
 from functools import cache

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The simulator, and beside it what is asked for: controllers, RViz, Foxglove, state publishers.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Shared by all tests: nothing leaves this host, and no two ROS tests share a DDS domain."""
 
 import fcntl

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Text of others in messages: one line, nothing that a terminal acts on, cut."""
 
 import datetime

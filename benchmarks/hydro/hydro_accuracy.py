@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Added mass from meshes: bodies with known values, turned meshes, a frame under refinement, planes.
 

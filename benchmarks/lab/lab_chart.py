@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Speed against accuracy of the laboratory's problems: charts, tables, orders, Pareto fronts.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 What an autopilot costs: speed in lockstep with a peer over real sockets, and the bridge's share.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Real-time factor of the demo: node and Python controller as two processes in lockstep at 100 Hz.
 

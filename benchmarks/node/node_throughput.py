@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Real-time factor of the node: free pacing, rov, 2 ms implicitfast, 100 Hz odom + wrench + clock.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 drone-models at the tasks in air: equations for arrays of vehicles, stepped by RK4 in numpy.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 JSBSim at the tasks in air: an aircraft and a planet of our own, written to a temporary folder.
 

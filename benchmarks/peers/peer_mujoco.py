@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """fluid_sim_ros and stock MuJoCo at the tasks in air."""
 
 from collections.abc import Callable, Iterable

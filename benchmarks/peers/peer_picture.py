@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The picture of peer_simulators.py: error against time, one panel for each task."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The tasks in air that the peers share: a rigid body, its closed form, its equations for SciPy.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The underwater task of the peers: a BlueROV2 Heavy answers a step of thrust in a current.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Renders the animated pictures of README: the quadrotor in the gust, the BlueROV2 in waves."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Draws the frames and symbols of doc/physics.md: world ENU, body FLU, the flow and the forces.
 

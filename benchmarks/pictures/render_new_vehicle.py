@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Render what ``fluid_sim new-vehicle`` makes, for doc/new_vehicle.md: a preset in air and in water.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of doc/waves.md: surface over time, spectrum, orbits."""
 
 from typing import Any

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of doc/weather.md: time series and profiles over the height."""
 
 from collections.abc import Mapping

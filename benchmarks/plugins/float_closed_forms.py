@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Floats against closed forms: depth at rest, frequencies of heave and roll."""
 
 from typing import Any

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The plugins against closed forms: pushed and released bodies, pendulum, Munk, floats, entry.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 fluid_sim.foil against theory and measurement: fly wing, lift slope, flat plate, order, cost.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Bodies in an ideal fluid against Kirchhoff's equations integrated by DOP853 at 1e-12.
 

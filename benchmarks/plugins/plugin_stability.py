@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Energy of a tumbling body in an ideal or a braking fluid, over the added-mass ratio.
 

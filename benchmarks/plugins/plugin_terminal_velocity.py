@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Terminal velocity of spheres over Re .1 to 1e5: own formula and the standard drag curve.
 

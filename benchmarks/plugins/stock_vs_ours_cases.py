@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The cases of plugin_stock_vs_ours: each a fact, in stock MuJoCo and with fluid_sim."""
 
 from typing import Any, NamedTuple

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 What becomes of hostile files: 20,000 logs with right checksums, 2,000 files of each other kind.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 What is left of programs that are ended by SIGINT, SIGTERM or SIGKILL at random moments.
 

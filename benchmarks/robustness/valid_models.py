@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 What becomes of 100,000 models that load, with all keys of all plugins, under ASan and UBSan.
 

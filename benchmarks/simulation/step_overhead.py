@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Speed of ``Simulation.step(10)`` as a multiple of a bare ``mj_step(m, d, 10)`` loop.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Where a step's time goes: shares of MuJoCo's stages, of a bare ``mj_step`` loop of each scene.
 

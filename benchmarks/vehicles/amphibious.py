@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The amphibious quadrotor against SciPy: hover and level flight, sinking and rising, water entry.
 

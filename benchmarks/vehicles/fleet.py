@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 What a vehicle of a fleet costs: 1, 4, 16 and 50 of them in one model, and ten in the node.
 

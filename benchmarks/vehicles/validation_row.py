@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """One line of the validation: what was measured on the real thing, and what the model gives."""
 
 from dataclasses import asdict, dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Vehicles of the validation: BlueROV2, REMUS 100, Aerosonde, and the T200 on its own."""
 
 from typing import Any

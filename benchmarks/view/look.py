@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A browser's side of the page in a process of its own: prints how many pictures come a second."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 A current on a grid: a neutral body in an eddy against the exact path, over the spacing; its cost.
 

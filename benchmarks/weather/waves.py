@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Waves of the medium against closed forms: spectrum, exact period, orbits, forces; their cost.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // What the search of the site shows first: pages that answer before pages that report.
 Scorer = {
   score: ([page, , anchor, , score]) => {

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The options of ``fluid_sim run`` and ``fluid_sim doctor`` that have to do with autopilots."""
 
 import argparse

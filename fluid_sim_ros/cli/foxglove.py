@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``fluid_sim run --foxglove``: what a live viewer may do to a run."""
 
 import struct

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The parser of ``fluid_sim``: exact options, one-line errors that say what was meant, colour."""
 
 import argparse

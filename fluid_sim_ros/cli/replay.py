@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``fluid_sim replay``: a log onto ROS topics, flown again, or flown again with a change."""
 
 import argparse

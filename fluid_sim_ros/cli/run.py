@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runs a scene without ROS: the same simulation and loop as the node, with a progress bar."""
 
 import time

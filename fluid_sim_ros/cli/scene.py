@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the command line says of a scene: whether it loads, its flow, its advised settings."""
 
 from collections.abc import Sequence

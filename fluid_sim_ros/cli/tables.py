@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Tables for a terminal of 80 columns: a column that says nothing is left out."""
 
 from collections.abc import Collection, Sequence

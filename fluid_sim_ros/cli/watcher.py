@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What ``fluid_sim run`` sees of a run while it goes on, and the line that it shows."""
 
 import time

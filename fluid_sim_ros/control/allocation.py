@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Thrust allocation: a wanted wrench becomes thrusts within their limits."""
 
 from collections.abc import Sequence

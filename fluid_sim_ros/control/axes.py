@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which axes of a wrench a set of thrusters reaches, each by itself."""
 
 from collections.abc import Sequence

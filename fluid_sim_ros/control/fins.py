@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How the fins of a torpedo turn it, whatever their number, places and signs."""
 
 import math

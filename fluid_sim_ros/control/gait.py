@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Sine waves on joints: the travelling wave of a swimmer, the beat of a pair of wings."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What control laws share: the time between states, integrals that follow it, and limits."""
 
 from fluid_sim_ros.control.integral import Integral

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Position control of a multirotor: position, velocity, attitude and rate loops in cascade."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Time between control steps, from stamps of the states (never from a clock on the wall)."""
 
 #: A longer gap than this is a lost message, not a control period [s].

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Depth, heading and speed hold of a torpedo: one propeller, a rudder and stern planes."""
 
 import math

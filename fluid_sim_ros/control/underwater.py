@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Depth, heading, attitude and speed (or position) hold of an underwater vehicle."""
 
 import math

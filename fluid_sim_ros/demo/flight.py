@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The flight of the demo: simulator and controller as two ROS 2 processes in lockstep."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the demo's log says: the rows for its pictures, the flight flown again, and a still."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The command ``fluid_sim demo``: fly, evaluate the log, print a table, write plots."""
 
 import argparse

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Makes the one form of a flight of the streams of a log, as a mapping says."""
 
 from collections.abc import Sequence

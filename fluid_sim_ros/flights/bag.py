@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """ROS 2 bags and MCAP files of any software: messages flattened to columns, by rosbags."""
 
 from collections.abc import Iterator

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which columns of a log are which quantity: the mapping files of ``config/flights``."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Reads the log of a flight in any of the formats, and makes it the one form."""
 
 from pathlib import Path

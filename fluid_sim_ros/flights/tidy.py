@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What of a signal can be used: rising times, finite numbers; holes and jumps are marked."""
 
 import numpy as np

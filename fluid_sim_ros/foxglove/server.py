@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The WebSocket server of the Foxglove SDK: parameters and services of a run beside its topics."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Added mass as it is estimated without a computation: from an ellipsoid, and from a box."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A picture of a mesh with its axes, its centres and its coefficients."""
 
 from pathlib import Path

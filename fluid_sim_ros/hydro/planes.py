@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Planes near a body: walls, the bed and the surface, as mirrors."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Panels of four corners: made of two flat neighbours, cut to a size, quartered."""
 
 import numpy as np

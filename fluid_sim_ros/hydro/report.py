@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The report on a mesh: a page of Markdown and a picture."""
 
 from collections.abc import Sequence

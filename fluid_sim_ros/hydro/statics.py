@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Volume, centre of buoyancy, wetted area and righting arms of a closed body under water."""
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The signals of this process, where it is one of our programs, and blocks that mind them."""
 
 import atexit

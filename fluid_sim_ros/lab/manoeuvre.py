@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 How much of a scene's own manoeuvre can be judged, and what is judged where nothing happens.
 

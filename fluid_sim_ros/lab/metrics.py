@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Relative errors of a motion: the quantities that a tolerance of 1 % refers to."""
 
 from collections.abc import Callable

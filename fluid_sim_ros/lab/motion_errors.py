@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How far two motions are apart: norms of the error, sensitivity to the start, regime."""
 
 from typing import Any, NamedTuple

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Result files of the laboratory: JSON that charts are drawn from, and CSV for other programs."""
 
 import csv

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An autopilot as a pacing: simulated time goes on when it has answered."""
 
 from fluid_sim_ros.loop.autopilot_port import Exchange

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Watches whether the integrator makes or takes energy by itself, over a run."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The way to live viewers: what a run needs to know of the part that serves them."""
 
 from collections.abc import Callable, Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Says once where a vehicle, or the time, leaves the grid of its wind or current."""
 
 import numpy as np

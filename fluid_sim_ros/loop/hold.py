@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Holds vehicles where a run begins, by the control laws in process: no ROS, no delay."""
 
 from fluid_sim_ros.control.state import State

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How the vehicles of a run ended: on the ground, upside down, or beyond the scene."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The loop that moves commands into the simulation and states out of it."""
 
 from collections.abc import Callable, Sequence

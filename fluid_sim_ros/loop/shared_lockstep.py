@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Several autopilots in one lockstep: simulated time goes on when all have answered."""
 
 from collections.abc import Sequence

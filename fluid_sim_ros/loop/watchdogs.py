@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """All watchdogs of a run in one sink; what they find goes into the simulation's warnings."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Opens the bridge of a protocol; see ``fluid_sim_ros.loop.autopilot_port``."""
 
 from dataclasses import replace

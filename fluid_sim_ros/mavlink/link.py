@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What every bridge shares: outputs that become commands, faults, and what is shown of both."""
 
 from abc import ABC, abstractmethod

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which output of an autopilot drives which thruster or joint: config/autopilots."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Between the axes of this package (ENU, FLU) and those of autopilots (NED, FRD).
 

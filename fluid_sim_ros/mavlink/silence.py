@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is said and done when an autopilot that has answered does not answer any more."""
 
 from fluid_sim_ros.errors import AutopilotError

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The sticks of a radio control on their way to an autopilot, as pulse widths."""
 
 import math

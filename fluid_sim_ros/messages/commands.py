@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a command message does to a simulation: its bytes in, ``Simulation.set_*`` called."""
 
 from collections.abc import Callable, Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Definitions and type hashes of the ROS messages in use, kept as data: no ROS is needed."""
 
 import json

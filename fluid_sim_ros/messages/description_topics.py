@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The robot description of every vehicle: its URDF, latched, as RViz and Foxglove expect it."""
 
 from collections.abc import Mapping

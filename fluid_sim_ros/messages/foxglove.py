@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 A layout of Foxglove and Lichtblick for a vehicle, made from the topics that it has.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A vehicle's geoms, what is tied to it and force arrows as markers, in the map frame."""
 
 from collections.abc import Sequence

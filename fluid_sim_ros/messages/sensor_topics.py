@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The topics of a vehicle's sensors: each new reading as one message, when it appears."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
 import math

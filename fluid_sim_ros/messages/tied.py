@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is tied to a vehicle without being part of it: a tether, a slung load, the cord between."""
 
 import itertools

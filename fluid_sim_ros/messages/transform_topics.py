@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The frames of every vehicle as transforms: what moves on ``/tf``, what stays on ``/tf_static``.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A new vehicle as numbers: checked, with the thrusts that hold it at rest."""
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Writes the model, vehicle file and scene of a new vehicle, and tries them."""
 
 import re

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Fins of a new torpedo: a rudder and planes behind, each a pair of plates on a servo."""
 
 from dataclasses import dataclass

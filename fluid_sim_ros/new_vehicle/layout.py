@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where the thrusters of a new vehicle are: preset layouts, or a list in a YAML file."""
 
 from dataclasses import dataclass

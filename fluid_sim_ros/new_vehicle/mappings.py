@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Autopilot mappings of a new vehicle whose layout is a frame that PX4 or ArduPilot knows."""
 
 import math

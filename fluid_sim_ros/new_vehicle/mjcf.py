@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The MJCF of a new vehicle, with a comment at each number that was guessed."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Sensors of a new vehicle: the shipped preset of each kind, by name."""
 
 from typing import Any, Literal, get_args

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The keys of ``fluid_sim.thruster`` for a thruster of a new vehicle."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // What the pages share: elements, and a figure with a canvas, a reading and a legend.
 function element(kind, parent, text, name) {
   const made = document.createElement(kind);

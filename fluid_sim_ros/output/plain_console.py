@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A console on which no text of a file acts: control characters are shown, not sent."""
 
 from collections.abc import Iterator

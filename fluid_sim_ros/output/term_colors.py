@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """One colour for each term of the fluid forces: the same in plots, films and the live view."""
 
 #: Distinguishable for colour-blind readers (Okabe and Ito 2008).

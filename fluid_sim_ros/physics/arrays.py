@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Small array helpers that the physics functions share: shapes, signs, checks."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Buoyancy, righting moment and the slamming force of a body that enters water."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Drag of the ellipsoid model: blunt, slender, angular, Stokes resistance and its history."""
 
 from typing import Literal

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A brushless motor and its propeller in equilibrium: from the throttle to the speed."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The ellipsoid model: all its terms together, as MuJoCo's ``fluidshape="ellipsoid"``."""
 
 from typing import NamedTuple

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Vehicle damping in Fossen's form, and its secant matrix for semi-implicit stepping.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Lift of the ellipsoid model: Magnus force of a spin, Kutta force of an angle of attack."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 6x6 matrices of rigid bodies, added mass and damping: reading, checking, other points and axes.
 

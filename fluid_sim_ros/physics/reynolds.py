@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Reynolds number, terminal speeds, and drag that depends on the Reynolds number."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The Blue Robotics T200 at rest in water: thrust against pulse width, 10 to 20 V.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Volumes and centres of volume of the shapes that MuJoCo's geoms can have."""
 
 import numpy as np

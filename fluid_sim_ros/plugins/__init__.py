@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The MuJoCo plugin library: where it is and how it is loaded."""
 
 import ctypes

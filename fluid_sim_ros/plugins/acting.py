@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which terms of the fluid wrench can act on the bodies of a model, known when it is loaded."""
 
 from collections.abc import Iterable, Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Models whose plugins MuJoCo itself loses or crashes on, found before they are compiled."""
 
 import re

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Arrows in pictures: their measure, and how one gets into a picture of MuJoCo's."""
 
 from typing import Any

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Says once where a body leaves what the fluid forces on it are good for."""
 
 import mujoco

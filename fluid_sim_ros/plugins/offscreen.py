@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Pictures of a pinhole camera, drawn without a display: by MuJoCo's renderer through EGL."""
 
 import atexit

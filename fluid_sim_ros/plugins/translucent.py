@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which geoms light passes through: bodies of water, drawn so that one sees into them."""
 
 import mujoco

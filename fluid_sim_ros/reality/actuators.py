@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What of a flight drives which thruster, and how its numbers become controls."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which windows of a flight are flown, and in which something holds the vehicle up."""
 
 from dataclasses import replace

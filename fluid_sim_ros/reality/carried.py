@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Parts of a model that the log of a vehicle does not know: a load on a cord, a tether, a hinge.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The speed that a thrust command asks for: by the model as it is written, not as it is fitted."""
 
 from collections.abc import Callable

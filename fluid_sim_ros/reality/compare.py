@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Compares a model with a flight: open-loop windows, two baselines, residuals of accelerations."""
 
 from collections.abc import Sequence

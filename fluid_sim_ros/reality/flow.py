@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The wind or current that a flight recorded, in the model that it drives."""
 
 from collections.abc import Callable

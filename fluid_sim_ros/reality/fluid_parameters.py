@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Parameters of what a fluid does to a body, and of how the fluid flows."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """One parameter of a model that can be fitted."""
 
 from collections.abc import Callable, Iterable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Parameters of a model by name: where they stand in its MJCF, and what tells them apart."""
 
 from collections.abc import Callable, Iterable, Sequence

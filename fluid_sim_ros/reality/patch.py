@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The result of a fit as files: values with their sources, and a model that has them."""
 
 from collections.abc import Sequence

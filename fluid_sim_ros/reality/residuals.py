@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a model's accelerations lack at the measured states: by axis, and against what."""
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """At what speed the rotors of a model begin a window, where they follow commands with a lag."""
 
 import numpy as np

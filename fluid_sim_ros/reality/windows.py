@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Windows of a flight: where they begin, what is measured in them, and what drives them."""
 
 from collections.abc import Sequence

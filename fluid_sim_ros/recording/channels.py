@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The topics of a log: its schemas and channels, so far as their names are names of ROS."""
 
 from fluid_sim_ros.errors import printable

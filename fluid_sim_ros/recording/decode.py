@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Messages of one topic as columns of numbers, from any definition in the encoding ``ros2msg``.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is in a log, whether it is sound, and a clean copy of one that is not."""
 
 import shutil

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An opened log: what is in it, and its messages from those chunks that are sound."""
 
 from array import array

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Reads MCAP logs, whole or damaged: every value comes from a part whose checksum is right.
 

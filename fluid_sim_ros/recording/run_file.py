@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``run.json`` of a log: what it must hold, checked before anything is done with it."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Records a simulation that runs without ROS: the same messages, byte for byte, as the node's."""
 
 import math

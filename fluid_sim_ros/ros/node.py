@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 ``fluid_sim_node``: the simulation as a ROS 2 lifecycle node.
 

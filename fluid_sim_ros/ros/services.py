@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The services of the simulator's node: reset, step, pause, and wind on or off."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The type tf2_msgs/msg/TFMessage for publishers where ROS here lacks the package tf2_msgs.
 

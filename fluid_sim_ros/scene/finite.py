@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Numbers of a model that positions come from: NaN, infinite and huge ones are refused."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The ladder of fluid models, from a scene's own plugins down to nothing."""
 
 from pathlib import Path

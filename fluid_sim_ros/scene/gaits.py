@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Joint waves of a scene: what its swimmers and wings do until somebody commands their joints."""
 
 from collections.abc import Mapping

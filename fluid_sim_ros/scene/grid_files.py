@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Reads gridded winds and currents from NPZ and NetCDF files; a fault is one line."""
 
 import base64

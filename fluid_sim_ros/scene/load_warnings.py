@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a user must hear of a model when it is loaded: other units, bodies that are left out."""
 
 import mujoco

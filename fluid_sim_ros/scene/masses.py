@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Heavier and lighter bodies: mass and inertia of a model's bodies times a factor."""
 
 from collections.abc import Mapping

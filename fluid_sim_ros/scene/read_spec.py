@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Reads a model as a spec that can be changed before it is compiled."""
 
 from collections.abc import Mapping

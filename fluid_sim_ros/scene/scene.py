@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A scene: its model, vehicles, weather and schedule, validated, with every name as an id."""
 
 from collections.abc import Callable

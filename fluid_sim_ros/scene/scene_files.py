@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Finds the scenes that there are, and reads their YAML files."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The scene's timed events (wind, current, thrust, disturbances) on the integer step clock."""
 
 from collections.abc import Mapping, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Brings a scene's weather into its model: ``opt.wind``, or keys of fluid_sim.medium."""
 
 from collections.abc import Mapping, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Reads the files that a scene's weather names; a fault is one line with file and row."""
 
 import csv

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The settings that a scene file keeps beside its own, for whoever asks for them."""
 
 from fluid_sim_ros.schema.base import NotNegative, Positive, Strict

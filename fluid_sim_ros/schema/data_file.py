@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Opens data files of others: regular files only, since a pipe would be waited for without end."""
 
 import errno

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Winds and currents from data: a time series, or a grid over time and place."""
 
 from typing import Literal, Self

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the models of winds and currents share: the keys of fluid_sim.medium that say the same."""
 
 from collections.abc import Iterable

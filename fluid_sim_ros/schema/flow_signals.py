@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Signals of winds and currents in time, the same everywhere but for the profile of the mean."""
 
 import math

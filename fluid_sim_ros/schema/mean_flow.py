@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Mean winds and currents: one of them, replaced by the topic and by the schedule."""
 
 from typing import Literal, Self

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The YAML schema of ``sensors:`` in config/vehicles, and of the presets in config/sensors.
 

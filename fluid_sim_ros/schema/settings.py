@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The settings of a run: timestep, integrator, fluid model and seed, checked in one place."""
 
 import operator

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Random winds and currents; the seed is that of the simulation."""
 
 from typing import Annotated, Literal, Self

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The YAML schema of a scene's ``waves:``, and the keys of fluid_sim.medium that say the same."""
 
 from typing import Annotated, Literal

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The YAML schema of ``wind:`` and ``current:``: one model or a list of models that add up.
 

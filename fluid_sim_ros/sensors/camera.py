@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A camera: pictures and distances of what it sees, drawn only when somebody wants them."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Sensors as the compiled exchange with autopilots reads them; the same bits as ``Sensor``."""
 
 import ctypes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The inertial measurement unit: specific force and angular rates at its place."""
 
 from fluid_sim_ros.physics.arrays import Array

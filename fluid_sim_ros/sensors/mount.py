@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where a sensor sits: on which vehicle, and at which place and turn of its base body."""
 
 from collections.abc import Sequence

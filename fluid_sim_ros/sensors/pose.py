@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where a sensor is and how it moves, from the observed state of its vehicle."""
 
 from collections.abc import Sequence

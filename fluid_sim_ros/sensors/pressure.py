@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Barometer and water pressure sensor: the static pressure of what is around them."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a sensor shows of its readings: the numbers, units and message of each of its topics."""
 
 from collections.abc import Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Sensors with a fan of beams in one plane: lidar and multi-beam sonar."""
 
 import math

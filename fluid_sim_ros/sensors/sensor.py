@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What every sensor shares: where it sits, when it measures, and how late its reading appears."""
 
 from abc import ABC, abstractmethod

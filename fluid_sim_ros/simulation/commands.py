@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a simulation is told: thrust, joints, wrenches, wind and current; checked and held."""
 
 from collections.abc import Callable, Mapping, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What integration does to the energy of the motion, and when that is worth a warning."""
 
 from dataclasses import dataclass

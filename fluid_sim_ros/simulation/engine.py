@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """MuJoCo's model and data, stepped and observed through the plugin library's C functions."""
 
 import weakref

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What takes effect at step boundaries: scheduled changes, and gaits."""
 
 from fluid_sim_ros.scene.scene import CompiledScene

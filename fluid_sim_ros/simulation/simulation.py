@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The simulation: a scene that is stepped under watch; commands in, states and wrenches out."""
 
 from fractions import Fraction

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A simulation at one step boundary: what it shows of itself, and what it can go back to."""
 
 from collections.abc import Iterable, Mapping

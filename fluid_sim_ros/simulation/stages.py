@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which stages of MuJoCo's step a simulation takes, and which it leaves out."""
 
 from dataclasses import dataclass
@@ -91,6 +93,6 @@ class Stages:
         }[self.contacts]
         others = 'other constraints always' if self.constraints else 'no other constraints'
         all_geoms = self.contacts == 'always'
-        geoms = 'all geoms' if all_geoms else f'{self.moved_geoms} of {self.geoms} geoms'
+        geoms = 'all' if all_geoms else f'{self.moved_geoms} of {self.geoms}'
         moments = '; moments of actuators at sites by tree' if self.moments_by_tree else ''
-        return f'{contacts}; {others}; {geoms}{moments}'
+        return f'{contacts}; {others}; places of {geoms} geoms at every evaluation{moments}'

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is written before each step, within the compiled step: gaits, and wrenches that turn."""
 
 from collections.abc import Mapping

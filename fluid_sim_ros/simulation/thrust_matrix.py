@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The wrench of each thruster of a vehicle, and thrusts for a wanted wrench."""
 
 from collections.abc import Sequence

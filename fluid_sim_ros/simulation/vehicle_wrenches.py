@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The fluid wrench on a vehicle, term by term."""
 
 from fluid_sim_ros.errors import CommandError, listed

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a run has to say to its user: found at load, or by a watchdog on the way."""
 
 from collections.abc import Iterable

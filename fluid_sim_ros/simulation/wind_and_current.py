@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Wind and current as commands: where they are written, and whether the scene has them."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Parameter sweeps and Monte Carlo: many short runs of one scene, with different numbers.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """One run of a sweep: a scene with its numbers, flown to the end, as one row of results."""
 
 import dataclasses

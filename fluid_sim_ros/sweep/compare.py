@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How far the runs of a device are from the same runs on the processor."""
 
 from collections.abc import Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A compiled simulation of a sweep: the start of a case, and the columns of its row."""
 
 import dataclasses

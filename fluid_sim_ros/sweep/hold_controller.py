@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A controller in the loop of a sweep's run: it holds a place, and its errors are measured."""
 
 import dataclasses

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The rows of a sweep on disk: Parquet parts as they come, one table at the end."""
 
 import hashlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runs a sweep to its end: cuts what is left into portions, and collects the rows."""
 
 import os

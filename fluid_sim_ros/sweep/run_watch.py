@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The watchdogs of a sweep's runs: one text for each row, the same however a run is made."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which models mujoco_warp can fly, and the masses of many worlds of one model."""
 
 import copy

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The runs of a sweep as worlds of mujoco_warp: many at a time on one device."""
 
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runs the portions of a sweep: on threads of this machine, or on workers of Ray."""
 
 import logging

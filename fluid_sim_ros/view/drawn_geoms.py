@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which geoms of a model are drawn, which of them move as one, and in which colours."""
 
 from collections.abc import Sequence

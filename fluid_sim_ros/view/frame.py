@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """One picture of a flight in numbers, as every source of the view gives it."""
 
 from collections.abc import Mapping, Sequence

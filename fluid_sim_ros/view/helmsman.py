@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Holds vehicles by their laws while a view is open, moves their targets, and lets them go."""
 
 from fluid_sim_ros.errors import ConfigError

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the view is fed by: a simulation in this process, a log, or a running node."""
 
 from abc import ABC, abstractmethod

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A model posed as a frame has it: bodies, force arrows, water; without drawing anything."""
 
 from collections.abc import Iterable, Mapping

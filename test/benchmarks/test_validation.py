@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The page on measurements: numbers with sources, gaps with reasons, with or without flights."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Hostile files of other software and of settings: read, or refused in one line, in bounds."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Names of scenes, models and vehicles that others chose: no markup, no escapes, no formats."""
 
 import pytest

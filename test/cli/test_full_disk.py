@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A disk that is full: each command that writes says so in one line, and leaves no half a file."""
 
 import json

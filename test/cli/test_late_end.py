@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An end that does not come is cut; a program leaves without waiting for what may never end."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Fins of any number, place and sign turn a torpedo as a rudder and stern planes do."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An underwater vehicle that lacks axes: those that it has are held, the others are named."""
 
 import dataclasses

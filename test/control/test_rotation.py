@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Rotations as nine floats, against the quaternion and matrix functions of SciPy."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The underwater controller, closed around the ROV model in plain MuJoCo."""
 
 import dataclasses

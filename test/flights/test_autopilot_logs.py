@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Logs of PX4 and ArduPilot of a flight of ours agree with our own log of it, to their quantisation.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is wrong with a log is one clear line; nothing is filled in or reinterpreted in silence."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Every format gives back the motion that was written: no axis, sign, unit or order is wrong."""
 
 import numpy as np

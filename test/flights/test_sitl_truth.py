@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Logs of PX4 and ArduPilot in simulation: no axis, sign or clock of a signal is wrong."""
 
 import gzip

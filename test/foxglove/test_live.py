@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Live viewers over the real protocol: channels and schemas of the log, services, parameters."""
 
 import json

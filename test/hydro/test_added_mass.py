@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Added mass by panels: known bodies, turned and moved ones, planes nearby."""
 
 import numpy as np

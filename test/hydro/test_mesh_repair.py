@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Meshes of strangers become one closed solid, with a word for each repair, or are refused."""
 
 import numpy as np

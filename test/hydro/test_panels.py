@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Panels: a partition of the surface, narrow beside sharp edges, within a number."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The advisor: cheap enough, accurate enough, verified, and written into the scene."""
 
 import json

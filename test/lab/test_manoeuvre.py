@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is judged of a scene: up to an impact, and an excitation where nothing moves."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Every problem: its richest model meets its reference, and the poorer ones do not."""
 
 from dataclasses import replace

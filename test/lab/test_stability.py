@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Stability: predicted boundaries, outcomes, watchdogs, maps that go on after an interruption."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A vehicle that leaves the grid of its wind or current: said once, with the place."""
 
 import json

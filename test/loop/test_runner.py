@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runner: schedule of sinks, the three pacings, requests of other threads."""
 
 import threading

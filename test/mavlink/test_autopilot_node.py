@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The node with an autopilot: topics, wind, reset and log go on as without, over real DDS."""
 
 import signal

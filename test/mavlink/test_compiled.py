@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What an exchange repeats is made in the library: the same bytes as by its twins in Python."""
 
 import json

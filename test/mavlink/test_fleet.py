@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Several autopilots in one lockstep: two PX4, or a PX4 and an ArduSub, over real sockets."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where a flight takes place: home by option, heading, and the Earth as PX4 projects it."""
 
 import contextlib

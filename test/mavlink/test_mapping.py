@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Outputs of autopilots become commands: signs against the autopilots' own tables, and faults."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An autopilot that is set otherwise than its mapping states is told of it."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Parameters that a frame needs: stated by its mapping, given to its program, replaced."""
 
 import shlex

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An autopilot's program as a child: how it is started, what it writes, how it ends."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """CDR readers: equal to the middleware's own, and safe on whatever bytes arrive."""
 
 import struct

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Layouts for Foxglove and Lichtblick name topics and fields that their vehicle has."""
 
 import importlib.util

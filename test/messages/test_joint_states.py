@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``joint_states`` has every joint below the base of a vehicle, then its thrusters."""
 
 import numpy as np

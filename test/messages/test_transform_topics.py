@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``/tf`` and ``/tf_static``: what moves and what does not, read by an independent reader."""
 
 import numpy as np

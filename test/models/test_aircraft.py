@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The Aerosonde against SciPy on the book's equations: trim, modes, a manoeuvre, its motor."""
 
 import pytest

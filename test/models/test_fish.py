@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The fish swims by its caudal fin, as fish do; its forces and powers balance."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Each model loads in MuJoCo, runs quietly, and shows the one fact that it is there for."""
 
 from pathlib import Path

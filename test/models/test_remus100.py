@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The REMUS 100: every published coefficient, however its parts are switched, and its motion."""
 
 import numpy as np

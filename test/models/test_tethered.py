@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A tether in a current against the equations of a line, and a slung load against the pendulum."""
 
 import mujoco

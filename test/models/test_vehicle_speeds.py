@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Steady speeds and free decay of the vehicles against SciPy on the same equations, 0.5 %."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a scene sees of a fluid_sim.thruster: one command per rotor, its speed, its rungs."""
 
 import numpy as np

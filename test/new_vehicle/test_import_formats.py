@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """GLB and DAE through ``fluid_sim import``: unit and up axis as they state them, with a word."""
 
 import json

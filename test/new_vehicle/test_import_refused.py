@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``fluid_sim import``: files and answers that cannot be: one line each, with the remedy."""
 
 import pytest

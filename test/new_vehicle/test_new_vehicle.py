@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """New vehicles: whatever mass, size and layout, the files load and it hovers or floats at once."""
 
 import json

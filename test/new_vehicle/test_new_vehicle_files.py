@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What stands beside the model of a new vehicle: sensors, fins, and mappings for autopilots."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Files made of foreign data: never through a link, whole or not there, no two of one name."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Commands and programs of README.md and doc/ run, with no more than ``make demo`` installs."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """doc/extending.md shows code that exists: each block stands in the file named above it."""
 
 import re

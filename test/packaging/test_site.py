@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The site is made of the repository's own pages: what changes on the way, and what must not."""
 
 import sys

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Each numpy term on its own against stock MuJoCo, and how far the printed formulas are off."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Flow on a grid: linear between its points, held beyond its ends, with exact derivatives."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Turbulence: spectra, covariances, von Karman as a sum, tables, exact discretisation."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Airy waves: dispersion, surface, flow; closed forms and derivatives."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The terms that can act on a body, against the wrenches that it feels in random motions."""
 
 import mujoco

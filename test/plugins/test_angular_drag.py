@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The slender part of MuJoCo's angular drag, and the plugin's drag without it; doc/limits.md."""
 
 import mujoco

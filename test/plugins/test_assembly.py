@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The C++ assembly against numpy, for articulated bodies with full random matrices."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Plugins of attached and replicated models: whole with named instances, refused where lost."""
 
 import mujoco

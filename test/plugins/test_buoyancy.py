@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Displaced volume and buoyancy of every shape against the numpy twin, at random attitudes."""
 
 import mujoco

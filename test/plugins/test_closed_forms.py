@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Closed forms at the bounds of benchmarks/plugins/plugin_closed_forms.py."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Who brakes a body that does not say so, and the drag of the inertia box in a local medium."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the watchdog takes for the integrator's doing: nothing that the surface or a flow does."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a free body's own factoring leaves is what MuJoCo makes of the same matrix, to the bit."""
 
 import mujoco

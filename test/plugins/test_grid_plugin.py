@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """current_grid and wind_grid of fluid_sim.medium: the twin's flow, closed forms, refusals."""
 
 import mujoco

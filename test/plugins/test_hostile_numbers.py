@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """NaN states, far times and lengths from a number: no read out of bounds, no endless loop."""
 
 import time

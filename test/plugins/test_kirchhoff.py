@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Added mass against Kirchhoff's equations (a small part of plugin_kirchhoff.py)."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Warnings where forces are not good any more: a crossing in few steps, the drag crisis."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The limits that doc/limits.md states, each measured; where MuJoCo changes, these tests tell."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Everything that is refused or warned about when a model is loaded, each with one line."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Damping and local drag in C++ against the numpy twins, term by term."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """No heap allocation while the plugins evaluate, counted by a preloaded malloc."""
 
 import ctypes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Waves of fluid_sim.medium: the numpy twin's flow and surface, and the forces that follow."""
 
 import mujoco

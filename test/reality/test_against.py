@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``chart --against``: the rungs of a model against a flight, and what is refused."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A model against a flight of its own is at rounding; a wrong model is named for what is wrong."""
 
 import json

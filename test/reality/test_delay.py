@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A log that is late against its actuators is found out, by how much, and signal by signal."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A wind that varies slowly is found knot by knot, and what cannot be told is refused."""
 
 from types import SimpleNamespace

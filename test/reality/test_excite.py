@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An excitation keeps within its limits, is repeated by its schedule, and tells the parameters."""
 
 import json

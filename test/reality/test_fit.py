@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A fit finds what a flight was flown with, with errors that hold, and says what it cannot."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What holds a vehicle is no flight, what floats is; and the recorded wind acts as it changes."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A step takes the control of its begin: a log of ours, flown again in windows, is at rounding."""
 
 import numpy as np

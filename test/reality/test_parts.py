@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Parts that no log knows, a load on a cord: carried along the measured motion, then flown."""
 
 import mujoco

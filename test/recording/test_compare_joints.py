@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Logs of earlier versions name thrusters alone in joint_states; those are compared."""
 
 from fluid_sim_ros.recording.replay.compare import of_the_same_joints

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Hostile logs with right checksums: read, or refused in one line, and nothing else touched."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is made of a hostile log: files in their folder, cells that stay text, plain terminals."""
 
 import csv

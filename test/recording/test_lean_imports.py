@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Opening a log takes little memory: what is heavy is imported where it is used."""
 
 import subprocess

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A log's scene is made of its attachments alone: whatever it names, nothing else is opened."""
 
 import time

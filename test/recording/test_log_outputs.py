@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is made of a log reads well: times, axes, what-if pictures, and no empty folders."""
 
 import csv

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Gathering a model finds the files that MuJoCo finds, and gives the same model to the bit."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Readers of other projects find the same values in a log, and rosbag2's fields beside it."""
 
 import numpy as np

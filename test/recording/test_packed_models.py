@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What of a model a log holds: enough to repeat it anywhere, and no file of somebody else's."""
 
 import os

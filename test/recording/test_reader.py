@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Our reader agrees with independent ones, and no damage makes it crash or read a wrong value."""
 
 import json

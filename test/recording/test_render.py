@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Films of a log: as many pictures as asked for, and the vehicle in them."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Sensor topics without ROS: what stands in them, when, and that a flight can be repeated."""
 
 import math

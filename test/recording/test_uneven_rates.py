@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Timesteps that no rate divides: every topic at the nearest steps, and the flight repeats."""
 
 import pytest

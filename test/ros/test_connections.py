@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A peer with which no message can pass is named in log and diagnostics, with the remedy."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A fleet in the node: topics of each vehicle, and a controller for each in one lockstep."""
 
 import signal

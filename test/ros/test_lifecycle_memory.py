@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Configuring and cleaning up again and again holds no more memory, objects or handles."""
 
 import json

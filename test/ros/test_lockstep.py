@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Lockstep with topic controllers: deterministic, patient, no answer lost or taken twice."""
 
 import os

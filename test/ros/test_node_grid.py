@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The node says where a vehicle leaves the grid of its wind: in /diagnostics, once in its log."""
 
 import numpy as np

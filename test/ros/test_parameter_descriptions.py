@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``ros2 param describe``: text, range and when it may change, for each parameter of each node."""
 
 import pytest

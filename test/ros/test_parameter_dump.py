@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Every parameter survives ``ros2 param dump`` and ``ros2 param load``, of every node."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Only ``ros/raw.py`` touches what rclpy keeps to itself."""
 
 import ast

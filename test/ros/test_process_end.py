@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Ctrl-C under ``ros2 launch``: exit code 0 and no ERROR line, whenever it comes."""
 
 import os

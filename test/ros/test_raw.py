@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Subscriptions that a loop takes from itself, publishers of bytes, and the wait for both."""
 
 import threading

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``<v>/robot_description`` on the graph, as RViz's RobotModel subscribes to it, and in logs."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Real-time pacing that does not keep its pace is reported, with what takes the time."""
 
 import pytest

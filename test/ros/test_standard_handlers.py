@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the services of simulation_interfaces do, with its classes from ROS's generator alone."""
 
 import sys

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Services of simulation_interfaces, and tf2_msgs, with types built by ROS's own generators."""
 
 import os

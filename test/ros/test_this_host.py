@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Nothing leaves this host: a peer beside it, with a cable between, reaches no part of ROS."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``/tf`` and ``/tf_static`` on the graph, with ROS's own type or without the package tf2_msgs."""
 
 import pytest

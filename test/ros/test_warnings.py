@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What load and watchdogs find stands in diagnostics and in the node's log."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A wrench on cmd/wrench_allocated over DDS becomes thrusts, and what it lacks is reported."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Scenes drawn over the schemas load, and are stepped, commanded, taken back and stepped again.
 

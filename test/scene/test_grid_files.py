@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Gridded winds and currents from NPZ and NetCDF: what is read, and the line for each fault."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Hostile files that a scene names: read, or refused in one line; memory and time bounded."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The links of a vehicle stand where MuJoCo has its bodies, at every position of the joints."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Numbers of a model or a state from which no positions come are refused before their use."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``model: grid`` of wind and current in scene files: the flow, the roads, replay, the faults."""
 
 import numpy as np

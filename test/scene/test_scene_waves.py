@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The key ``waves:`` of scene files: what reaches fluid_sim.medium, and the faults."""
 
 import numpy as np

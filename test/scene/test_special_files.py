@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Pipes, sockets, devices and folders in place of files: one line at once, for every command."""
 
 import json

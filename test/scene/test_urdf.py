@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A vehicle's URDF, read by MuJoCo's URDF reader and by urdf_parser_py: nothing has moved."""
 
 import mujoco

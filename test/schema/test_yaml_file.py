@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """YAML of others: the values that PyYAML gives, or one line; never a traceback, never a bomb."""
 
 import datetime

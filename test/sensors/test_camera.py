@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The camera: known marks and depths, messages, latency, what it leaves alone, no EGL."""
 
 import math

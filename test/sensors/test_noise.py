@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Errors of readings: Allan deviation, rounding, saturation, dither, and what they depend on."""
 
 import numpy as np

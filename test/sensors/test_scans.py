@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Lidar and sonar: ranges to known walls, range by absorption, messages."""
 
 import math

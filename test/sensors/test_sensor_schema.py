@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Sensors in vehicle files: what is read, presets, and the one line of each fault."""
 
 import pytest

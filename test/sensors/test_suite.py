@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The suite: rates, latency, saved states, and that sensors do not disturb each other."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A vehicle that feels no fluid is never silent: terms, warnings and refusals at load."""
 
 import pytest

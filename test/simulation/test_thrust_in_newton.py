@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Commands, limits and efforts of thrusters are newtons, whatever their gear and gain."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The wrench of each thruster, and thrusts for a wrench, on every layout; controllers on lag."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a simulation notices by itself: blow-ups, silent resets, energy out of nowhere."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Time and ticks where the timestep changes on the way, and a simulation that steps so."""
 
 import math

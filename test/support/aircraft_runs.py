@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The simulated Aerosonde as aircraft_equations describes it: trim, modes, flight."""
 
 from collections.abc import Sequence

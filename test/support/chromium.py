@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A headless Chromium, driven over its DevTools protocol: to look at pages as a user does."""
 
 import base64

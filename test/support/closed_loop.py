@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Controllers closed around the simulation of their scene; stamps as over ROS, without it."""
 
 import dataclasses

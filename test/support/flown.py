@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Flights that our own simulator flew, as tables: what is true of them is known."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the tests and the benchmark of fluid_sim.foil share: one foil in a flow, its wrench."""
 
 from collections.abc import Mapping, Sequence

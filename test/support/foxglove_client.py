@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A client of the Foxglove WebSocket protocol, as the viewers speak it."""
 
 import contextlib

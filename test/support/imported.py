@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A small URDF to import, what comes of it, what is asked and what is refused."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Programs that are ended by a signal at a moment of their life, and what is left of them."""
 
 import os

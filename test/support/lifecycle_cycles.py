@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Takes a node through its lifecycle many times, as a process, and says what it holds."""
 
 import ctypes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Models whose mesh could be meant to stand in one of several places."""
 
 _USE = '<worldbody><geom type="mesh" mesh="x"/></worldbody>'

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which files of a folder are opened, by whatever process, as the kernel reports it (inotify)."""
 
 import ctypes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the plugin benchmarks share: models with fluid_sim plugins, native calls, results."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Formulas as MuJoCo's chapter "Fluid forces" prints them, where the engine computes something else.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A real node in a process of its own, and a peer in the test's process, over real DDS."""
 
 import math

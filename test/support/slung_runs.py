@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The load of x500_slung_load under a vehicle that is held: a pendulum."""
 
 import mujoco

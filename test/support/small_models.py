@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """MJCF of small models: a boat with a fin in stock water, and a buoy with plugins at a surface."""
 
 TWO_PARTS = """

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A small sweep, and its variants."""
 
 from fluid_sim_ros.sweep.sweep_file import SweepFile

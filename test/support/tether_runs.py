@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The tether of bluerov2_tether between two fixed points, settled in a current by the plugin."""
 
 import mujoco

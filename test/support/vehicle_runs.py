@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runs of the vehicle scenes that the tests and the benchmark compare with vehicle_equations."""
 
 from dataclasses import replace

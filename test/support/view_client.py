@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A browser's side of the page's protocol, without a browser: what is shown, and what is moved."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which parameters of a slow test `make test` takes; `make test-full` takes all of them."""
 
 import pytest

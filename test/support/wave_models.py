@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Bodies in waves of fluid_sim.medium, and the same seas in numpy."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A body that reads the flow of fluid_sim.medium, and what stands at a point of it."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A part of a sweep that was damaged on the disk is flown again, whatever byte it is."""
 
 import random

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runs of a sweep: rows like those of a simulation, whatever goes wrong."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Threads and Ray fly the same rows, and a killed sweep goes on."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The flow around a vehicle, as the view draws it: what the vehicle would meet there."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A log in the live view: scrubbed, played, beside the same flight with a change."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """MuJoCo's desktop viewer with the plugins and the arrows, on a display of its own."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How ``fluid_sim chart`` and ``fluid_sim advise`` show what they found."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``fluid_sim chart --against LOG``: which effect of a model is worth its cost on a flight."""
 
 import argparse

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``fluid_sim excite``: a manoeuvre that makes the parameters of a vehicle identifiable."""
 
 import argparse

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The subcommand of ``fluid_sim`` that makes a vehicle of a URDF, an MJCF model or a mesh."""
 
 import argparse

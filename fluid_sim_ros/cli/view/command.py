@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The subcommand ``fluid_sim view``: a scene, a log or a node in the browser."""
 
 import argparse

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Steers the vehicles of a node: velocities on ``<vehicle>/cmd_vel`` for their controllers."""
 
 import struct

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A pilot's velocity as a place and a heading that move, which laws that hold them can follow."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """From triangles of a file to one closed solid, each repair with a word."""
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Closed meshes of simple shapes, and files of them: for examples and tests."""
 
 from collections.abc import Sequence

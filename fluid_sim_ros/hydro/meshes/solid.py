@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """One solid of many parts: cavities filled, specks dropped, overlapping parts united."""
 
 import numpy as np

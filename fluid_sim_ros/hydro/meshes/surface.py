@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A triangle mesh as arrays: areas, volume, parts, edges."""
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Corners that lie on one another become one vertex; faces that are nothing go."""
 
 import numpy as np

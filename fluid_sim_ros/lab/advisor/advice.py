@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What an advice says: its settings as a scene file has them, and a run that verifies it."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The advisor: the cheapest rung x integrator x timestep that is accurate enough for a scene."""
 
 import math

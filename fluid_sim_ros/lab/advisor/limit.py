@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The timestep at which a setting fails: a limit of stability, found by bisection."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 What a step costs, per curve (rung and integrator), so that charts and choices can be repeated.
 

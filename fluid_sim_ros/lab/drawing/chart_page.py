@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Charts as one interactive HTML file."""
 
 from collections.abc import Callable, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Stability maps as pictures: one panel per integrator, the predicted boundaries on top."""
 
 from pathlib import Path

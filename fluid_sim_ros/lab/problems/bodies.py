@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Bodies that stability is mapped on: one ellipsoid of rotation, coasting in a still fluid.
 

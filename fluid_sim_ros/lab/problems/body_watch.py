@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The motion of every body that belongs to a vehicle, as rows of a state."""
 
 import mujoco

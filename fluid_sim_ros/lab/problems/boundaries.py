@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where explicit integration of drag fails, by theory: one step of v' = -|v| v or v' = -v."""
 
 from collections.abc import Callable, Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Problems whose motion is a formula: falls, rise, spin-down, pendulum in water."""
 
 from collections.abc import Callable, Sequence

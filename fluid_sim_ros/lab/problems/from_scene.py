@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The problem that a scene is: its own manoeuvre, with its models from the poorest on."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """MJCF of small worlds: bodies in a fluid with the plugins, as text with every digit kept."""
 
 from collections.abc import Mapping

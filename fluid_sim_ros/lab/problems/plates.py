@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Falling plates: the model of Andersen, Pesavento and Wang (2005) as MJCF, and as problems."""
 
 import numpy as np

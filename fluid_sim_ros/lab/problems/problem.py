@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A problem: something that moves in a fluid, what is known of its motion, and its models."""
 
 from collections.abc import Callable, Mapping, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Problems that are scenes: what no formula gives, against its own converged run."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Problems of one rigid body whose equations SciPy solves: ideal fluid, vehicle, gliding wing."""
 
 from typing import Any, NamedTuple

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Random runs that are stable by construction: no watchdog may speak up in them."""
 
 import numpy as np

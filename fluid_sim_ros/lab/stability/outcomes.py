@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What becomes of a body that coasts: every run gets one word, found by the watchdogs."""
 
 from functools import lru_cache

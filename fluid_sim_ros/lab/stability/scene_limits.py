@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where the integration of a scene fails: error over timestep, and the largest one that lasts."""
 
 import math

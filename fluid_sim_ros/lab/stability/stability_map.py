@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Stability maps over two parameters, kept point by point so that a run can go on."""
 
 import itertools

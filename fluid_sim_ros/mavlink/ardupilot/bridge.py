@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 ArduPilot in lockstep: a servo packet comes in, one frame is simulated, its end is the reply.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """ArduPilot's frames: how long each is, and the steps that it is split into."""
 
 from fractions import Fraction

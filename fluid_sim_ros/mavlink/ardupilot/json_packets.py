@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 ArduPilot's JSON interface: servo packets in, one line of JSON out, each a UDP datagram.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What ArduPilot gets to know of its vehicle at the end of each frame."""
 
 import ctypes

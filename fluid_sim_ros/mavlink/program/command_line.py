@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What starts an autopilot's program: the user's command, and what the bridge knows better."""
 
 import shlex

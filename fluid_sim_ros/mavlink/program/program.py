@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Runs an autopilot's own program as a child: arguments, log, and an end together with ours."""
 
 import os

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 PX4 in lockstep: every 4 ms of simulated time it gets its sensors, and answers with its outputs.
 

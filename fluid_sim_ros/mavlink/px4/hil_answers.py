@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The MAVLink 2 messages of PX4 to a simulator: outputs of the autopilot, and what is wrong.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The MAVLink 2 messages of a simulator to PX4: their bytes, their bits and their units.
 

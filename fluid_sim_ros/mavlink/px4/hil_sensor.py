@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """HIL_SENSOR, the message of every exchange: made in the library, or here with the same bytes."""
 
 import ctypes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What PX4 gets to know of its vehicle at every exchange: its sensors and, for its log, truth."""
 
 import math

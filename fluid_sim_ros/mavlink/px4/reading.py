@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Tells a PX4 that sends no outputs from one that is halted: it still reads what it gets."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The Earth as PX4 projects it: a sphere of 6371 km, on which 1 m is 1 m in every direction."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Whole frames of MAVLink 2, for the messages of every exchange; plugins/src/exchange has a twin.
 

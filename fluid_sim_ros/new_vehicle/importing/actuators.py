@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Actuators of an imported vehicle: thrusters with their reaction torques, and servos."""
 
 import xml.etree.ElementTree as ElementTree

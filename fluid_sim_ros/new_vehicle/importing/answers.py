@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a user says about a file that is imported: a small YAML file, options, or both."""
 
 from collections.abc import Mapping

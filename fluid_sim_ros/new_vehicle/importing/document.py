@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The MJCF of an imported vehicle: what MuJoCo read, with fluid, thrusters and a place to be."""
 
 import re

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Mass, centre of mass and inertia of the base: from the file, given, or spread over the hull."""
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where the mesh files of a URDF are, within its own folder, its package and the ones allowed."""
 
 import re

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An MJCF model or a mesh as the thing that is imported."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What an imported file leaves undecided: asked for in one list, not guessed."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The vehicle of a file as one free rigid base with its moving parts, and what hangs on it."""
 
 from dataclasses import dataclass, field

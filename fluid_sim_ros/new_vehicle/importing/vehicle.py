@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """From a file and answers to a vehicle: decided, computed, written and tried."""
 
 from collections.abc import Callable

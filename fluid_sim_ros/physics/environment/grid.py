@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A measured or computed flow on a rectilinear grid, u(t, x, y, z)."""
 
 from typing import NamedTuple

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How far sound reaches in water: absorption, and the range at which an echo is lost."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Continuous turbulence of Dryden and von Karman: MIL-F-8785C (1980), 3.7; MIL-HDBK-1797 (1997).
 

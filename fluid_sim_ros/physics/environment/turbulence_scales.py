@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Intensity and length of atmospheric turbulence by height: MIL-F-8785C (1980), 3.7."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Linear (Airy) waves on water: dispersion, surface and flow, for deep and finite depth.
 

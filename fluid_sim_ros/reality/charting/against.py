@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which effect of a model is worth its cost against a flight: rungs, integrators, timesteps."""
 
 import time

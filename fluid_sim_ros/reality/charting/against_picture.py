@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The chart of a model's rungs against a flight, as a picture."""
 
 from pathlib import Path

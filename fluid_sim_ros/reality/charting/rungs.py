@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The effects of a model one after the other: from bare thrust to all that it has."""
 
 from collections.abc import Callable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An excitation as files: a scene whose schedule commands it, and a table for other software."""
 
 from pathlib import Path

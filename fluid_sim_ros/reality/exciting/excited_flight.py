@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Flies an excitation with a vehicle's model under its control law, within limits."""
 
 from collections.abc import Iterable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Whether fitted values are worse than those before where the fit did not look."""
 
 from collections.abc import Sequence

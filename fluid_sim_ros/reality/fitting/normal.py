@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Normal equations of a fit: the states of windows taken out, one window by one."""
 
 import numpy as np

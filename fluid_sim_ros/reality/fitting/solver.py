@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Steps of a fit towards the least squares: Gauss-Newton with damping, states taken out."""
 
 from collections.abc import Callable, Sequence

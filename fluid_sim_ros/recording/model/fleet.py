@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The models of a fleet in a log: each gathered once, however many vehicles have it."""
 
 import posixpath

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 MJCF and URDF text as a tree, read as leniently as MuJoCo reads it, and written strictly.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where a model's files come from: the disk, within chosen folders, or a log's attachments."""
 
 import os

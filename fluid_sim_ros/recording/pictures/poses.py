@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A log's model, and the pose in which it stands at each recorded time."""
 
 from pathlib import Path

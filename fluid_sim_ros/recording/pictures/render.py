@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A log as a film: MuJoCo's renderer on the recorded poses, with force arrows."""
 
 from collections.abc import Callable, Generator

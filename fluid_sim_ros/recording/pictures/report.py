@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A log as one interactive HTML file that needs nothing beside it."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What makes films look like a place: ground to the horizon, sky, and water."""
 
 import mujoco

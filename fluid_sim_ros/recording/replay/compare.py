@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """How a state message differs from a recorded one, field by field."""
 
 from dataclasses import dataclass

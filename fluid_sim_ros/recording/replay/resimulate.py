@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Flies a log again: its commands into a fresh simulation, its states compared with the new."""
 
 import platform

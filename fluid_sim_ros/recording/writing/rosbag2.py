@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What rosbag2 wants beside the messages: quality of service and ``metadata.yaml``."""
 
 from collections.abc import Mapping, Sequence

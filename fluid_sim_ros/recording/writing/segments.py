@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The files of a recording: one per segment, each beginning at simulated time 0."""
 
 from pathlib import Path

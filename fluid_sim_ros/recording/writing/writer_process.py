@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The process that writes a log, seen from the simulator: a pipe and a queue before it."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Commands of a controller as messages: lists of numbers with the stamp that they answer."""
 
 import struct

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``plane_controller``: holds altitude, heading and airspeed with a fixed-wing aircraft."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``quad_controller``: holds position and flies waypoints with a multirotor, in wind."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """``rov_controller``: holds depth, heading and a level attitude with an underwater vehicle."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where a controller's states come from: odometry, and the medium's velocity where asked for."""
 
 from collections import deque

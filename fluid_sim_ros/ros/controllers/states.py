@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Reads what a controller needs from an odometry message, straight from its CDR bytes."""
 
 import struct

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the node says of itself on /diagnostics, once per second of wall time."""
 
 from collections.abc import Sequence

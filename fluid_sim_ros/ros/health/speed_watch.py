@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Whether real-time pacing keeps its pace, and what takes the time where it does not."""
 
 import time

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Changes of ROS parameters while a node runs: which are accepted."""
 
 from collections.abc import Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the services share: work on the session, and what went wrong as their result."""
 
 from collections.abc import Callable

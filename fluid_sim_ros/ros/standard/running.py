@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Services on the simulation as a whole: its features, its state, steps and resets."""
 
 from typing import Any

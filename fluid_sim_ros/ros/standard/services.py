@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Creates the services of simulation_interfaces where that package is installed."""
 
 from collections.abc import Callable

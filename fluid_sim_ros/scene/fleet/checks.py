@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Whether the vehicles of a fleet begin apart from each other, and clear of the world."""
 
 from collections.abc import Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Composes one model of a world and the vehicles in it."""
 
 from collections.abc import Collection, Mapping

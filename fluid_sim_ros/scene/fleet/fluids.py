@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Which fluid a fleet is in: that of one of its models, which the others must be able to meet."""
 
 from collections.abc import Mapping

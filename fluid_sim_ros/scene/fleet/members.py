@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What a fleet is made of: its vehicles' models, and where each begins."""
 
 from dataclasses import dataclass, field

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Options of MuJoCo, of which a scene has one set: what follows where models differ in them."""
 
 from collections.abc import Collection

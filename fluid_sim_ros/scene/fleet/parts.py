@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Takes the two parts of a model from each other: what moves, and the world that it stands in."""
 
 from collections.abc import Iterable

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where the vehicles of a fleet begin: poses, joints, rotors and controls of their keyframes."""
 
 import math

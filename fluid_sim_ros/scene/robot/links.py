@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The links of a vehicle: its bodies as ROS has them, a tree of frames with one joint each."""
 
 from collections.abc import Collection

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Geoms of a model as shapes of URDF: boxes, cylinders, spheres, and meshes for what it lacks."""
 
 from collections.abc import Callable, Iterator

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A vehicle's URDF, made from its MuJoCo model: what ROS calls its robot description."""
 
 from collections.abc import Callable, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What panels share: events of a browser become calls, what is wrong with them a line."""
 
 from collections.abc import Callable

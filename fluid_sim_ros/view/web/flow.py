@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Wind and current on the page: a field of arrows around the vehicle that is followed."""
 
 from collections.abc import Collection, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The panel of the forces: their sizes, which arrows are drawn, and how."""
 
 from collections.abc import Callable

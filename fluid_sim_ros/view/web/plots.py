@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Live plots beside the scene: position, attitude, speed, forces, commands."""
 
 from collections.abc import Mapping, Sequence

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The scene of the page: vehicles, ground, water, force arrows, flow, trail, camera."""
 
 from collections import deque

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Keys and gamepads of the page as four axes (forward, left, up, turn), -1 to 1, sent while they
 // change; a key that is let go, a lost focus and a closed page send zeros: the vehicle holds.
 (() => {

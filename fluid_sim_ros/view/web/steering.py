@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Takes the axes of keys and gamepads from the page's script, and steers the chosen vehicle."""
 
 import asyncio

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is around the vehicles: light, ground, water with its waves, sky or depth behind it."""
 
 from typing import Any

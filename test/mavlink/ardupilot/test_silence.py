@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """An ArduPilot that is silent, comes back, starts anew, or waits before its first packet."""
 
 import socket

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 import pytest
 
 from fluid_sim_ros.mavlink.px4 import bridge as px4_bridge

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """PX4's bridge when PX4 halts, goes away, or sends anything at all."""
 
 import random

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A PX4 that has answered and is silent: halted, in flight termination, or gone for good."""
 
 import os

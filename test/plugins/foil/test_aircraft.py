@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The coefficient set of Beard and McLain: every derivative on its own, and its limits."""
 
 import mujoco

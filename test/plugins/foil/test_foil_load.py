@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What fluid_sim.foil refuses when a model is loaded, where foils may be, and how they run."""
 
 import copy

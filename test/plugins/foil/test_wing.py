@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A wing: the plugin against its numpy twin, limits of theory, Dickinson's fly wing."""
 
 import mujoco

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Where the plate begins to tumble: plugin, theory, theory with the plugin's drag, stock."""
 
 import numpy as np

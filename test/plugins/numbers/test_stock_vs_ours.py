@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The accuracy table of doc/accuracy.md: ours is near the reference, stock is not."""
 
 import pytest

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Spheres settle to the speed of our formula, near that of the standard drag curve."""
 
 import numpy as np

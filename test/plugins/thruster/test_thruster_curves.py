@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Command to speed to thrust and torque: each curve against its numpy twin and its source."""
 
 import mujoco

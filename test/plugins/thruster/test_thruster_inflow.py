@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Loss of thrust by an axial inflow: the law, its twin, off unless asked, and what is refused."""
 
 import mujoco

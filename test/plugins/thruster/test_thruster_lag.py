@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The lag: exact at any timestep with any integrator, order 4 with RK4, the same bits always."""
 
 import copy

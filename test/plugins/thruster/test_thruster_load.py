@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What fluid_sim.thruster refuses when a model is loaded, each with one line."""
 
 from pathlib import Path

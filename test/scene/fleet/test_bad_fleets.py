@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Scene files of several vehicles with a fault: one line with the file, the key and a remedy."""
 
 import pytest

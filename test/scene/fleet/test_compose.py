@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Composed models: every vehicle is what it is alone, in the fluid and at the place stated."""
 
 import mujoco

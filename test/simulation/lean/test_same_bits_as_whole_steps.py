@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Steps that leave stages out are whole steps to the bit: worlds in which bodies meet."""
 
 import numpy as np

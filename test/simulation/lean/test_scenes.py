@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Every shipped scene steps as MuJoCo steps its whole model, to the bit."""
 
 import mujoco
@@ -32,8 +34,8 @@ def test_scene(scene, integrator):
 def test_doctor_says_what_is_on():
     rows = {row.name: row for row in examine_scene('x500')}
     assert rows['stages'].found == (
-        'contacts while geoms are near each other; no other constraints; 0 of 23 geoms; '
-        'moments of actuators at sites by tree'
+        'contacts while geoms are near each other; no other constraints; '
+        'places of 0 of 23 geoms at every evaluation; moments of actuators at sites by tree'
     )
     rows = {row.name: row for row in examine_scene('kirchhoff')}
     assert rows['stages'].found.startswith('contacts never')

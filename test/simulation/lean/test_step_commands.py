@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Gaits and wrenches in the compiled step are those of their twins in Python, to the bit."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Moments of actuators at sites, made along one tree, are those that MuJoCo makes of all."""
 
 from concurrent.futures import ThreadPoolExecutor

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Ends of a bridge that a test plays: raw sockets and a runner in a thread."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A fleet whose scene file states its autopilots, run in a thread, and stand-ins that fly it."""
 
 import threading

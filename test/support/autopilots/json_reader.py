@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 ArduPilot's reader of JSON states, as strict as the real one is naive (libraries/SITL/SIM_JSON).
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 A stand-in for PX4's fixed-wing flight: runway take-off, total energy control, loiter.
 

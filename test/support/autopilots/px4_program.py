@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """The stand-in for PX4 as a program: takes off and holds its place until it is ended."""
 
 import argparse

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 Sessions with the real programs (PX4 1.17-alpha iris, ArduCopter and ArduSub 4.7-dev, SITL).
 

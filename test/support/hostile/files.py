@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Hostile files of each kind that scenes name: YAML, NPZ, NetCDF, CSV, MJCF."""
 
 import io

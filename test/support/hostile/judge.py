@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What became of a hostile file: an error of ours, a traceback, too much time or memory."""
 
 import io

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """
 The process that compiles a stranger's MJCF model for a trial: ``python -m ... FILE BYTES``.
 

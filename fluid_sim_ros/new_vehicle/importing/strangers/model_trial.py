@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """A stranger's MJCF model: what it includes lies beside it, and compiling it is tried apart."""
 
 import os

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The C functions of the library that Python calls (bound in plugins/native.py).
 //
 // What each does stands at its definition; here is only what several of these files need.

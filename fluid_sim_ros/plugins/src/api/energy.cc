@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // For the energy watchdog: energy that the integrator makes or loses by itself; and forces and
 // energies alone, for tests.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // What the library says of itself: its version, the terms, the columns, the plugins' keys.
 
 #include <mujoco/mujoco.h>

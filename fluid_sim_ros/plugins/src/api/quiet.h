@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Keeps MuJoCo's log quiet about what the caller reports itself.
 
 #ifndef FLUID_SIM_API_QUIET_H_

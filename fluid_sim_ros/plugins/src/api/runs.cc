@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // C function for Python (bound in plugins/native.py): many runs of one model in a single call.
 
 #include <mujoco/mujoco.h>

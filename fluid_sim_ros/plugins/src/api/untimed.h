@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Keeps MuJoCo from reading the clock at the begin and the end of every stage.
 
 #ifndef FLUID_SIM_API_UNTIMED_H_

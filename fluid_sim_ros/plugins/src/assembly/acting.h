@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Which terms of the fluid wrench can act on a body at all.
 
 #ifndef FLUID_SIM_ASSEMBLY_ACTING_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // One assembly per evaluation: medium, then every body, then every foil, in a fixed order.
 //
 // MuJoCo calls each plugin instance on its own. The first passive fluid_sim instance (lowest id)

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The plugin instances of a model that take part in the assembly.
 
 #ifndef FLUID_SIM_ASSEMBLY_INSTANCES_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // fluid_sim.body: constants of one body, read once when the model is loaded.
 
 #ifndef FLUID_SIM_BODY_BODY_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // What the fluid does to one body at the present state.
 
 #ifndef FLUID_SIM_BODY_BODY_FORCES_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Reads the displaced volume of a body (units and defaults: doc/plugins.md).
 
 #include <algorithm>

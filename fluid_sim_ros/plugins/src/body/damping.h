@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Vehicle damping of ship theory (Fossen 2021, ch. 6): linear, quadratic and cross terms.
 
 #ifndef FLUID_SIM_BODY_DAMPING_H_

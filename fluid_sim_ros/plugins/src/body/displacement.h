@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Volume that a body displaces below a plane: exact for ellipsoids and closed polyhedra.
 
 #ifndef FLUID_SIM_BODY_DISPLACEMENT_H_

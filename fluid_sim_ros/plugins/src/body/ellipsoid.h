@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Forces on an ellipsoid that moves through a fluid, as pure functions of its local velocity.
 //
 // The one implementation for MuJoCo's own fluid forces (stock_terms.h) and for fluid_sim.body;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 #include "body/factor.h"
 
 // all of a loop of a known length: the compiler would rather make vectors of two numbers

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The factors of a free tree's inertia, as mj_factorM makes them.
 
 #ifndef FLUID_SIM_BODY_FACTOR_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // History force on a small sphere: the wake that follows a change of its velocity late.
 //
 // F = -6 pi mu r int K(t - s) dv/ds ds, v relative to the fluid. Basset's kernel is (s/T)^-1/2 with

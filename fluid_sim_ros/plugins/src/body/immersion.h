@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // How a body lies in the two fluids: the part of it below the surface, level or wavy.
 
 #ifndef FLUID_SIM_BODY_IMMERSION_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Writes added inertia into MuJoCo's sparse inertia matrix, and generalized forces.
 
 #ifndef FLUID_SIM_BODY_INERTIA_H_

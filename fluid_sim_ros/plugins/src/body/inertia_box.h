@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // MuJoCo's inertia-box model: the body drags like the box that has its mass and inertia.
 //
 // Pure functions of the local velocity, twins of fluid_sim_ros/physics/inertia_box.py. Everything

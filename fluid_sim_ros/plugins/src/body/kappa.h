@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Exact added mass of an ellipsoid (Lamb 1932, art. 114; Tuckerman 1925), evaluated at load.
 
 #ifndef FLUID_SIM_BODY_KAPPA_H_

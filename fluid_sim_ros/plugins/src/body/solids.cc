@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Solids of MuJoCo's geoms (see displacement.h), built once when the model is loaded.
 
 #include <algorithm>

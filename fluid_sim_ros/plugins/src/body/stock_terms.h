@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Wrench per term that stock MuJoCo's passive stage applies to one body, about any point.
 
 #ifndef FLUID_SIM_BODY_STOCK_TERMS_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The reply to ArduPilot at the end of each frame: one line of JSON.
 //
 // The same bytes as mavlink/ardupilot/json_state.py and json_packets.py write; see there for units

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames of MAVLink 2; https://mavlink.io/en/guide/serialization.html
 
 #ifndef FLUID_SIM_EXCHANGE_FRAME_H_

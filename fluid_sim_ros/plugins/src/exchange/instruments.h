@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Sensors as an autopilot gets them: the true value at a state, and the errors of its reading.
 //
 // Each does what its class in fluid_sim_ros/sensors does, in the same order of operations, so that

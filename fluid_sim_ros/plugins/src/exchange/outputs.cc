@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // From an autopilot's outputs to commands, as mavlink/actuator_map.py turns them.
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The two messages of every exchange with PX4: HIL_SENSOR out, HIL_ACTUATOR_CONTROLS in.
 //
 // The same bytes as mavlink/px4/hil_state.py and hil_messages.py write; see there for units, axes

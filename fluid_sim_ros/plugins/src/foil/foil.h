@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // fluid_sim.foil: lift and drag of wings, fins and whole aircraft from the local flow.
 //
 // A foil is at a site (instance key `site`, several names allowed) or on each body that carries

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Aerodynamic coefficients of wings and aircraft as pure functions of the local flow.
 //
 // Twins of fluid_sim_ros/physics/foil.py and aircraft.py. Foil axes: x towards the leading edge, y

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Reads the attributes of fluid_sim.foil (units, signs and defaults: doc/foil.md).
 
 #include <cmath>

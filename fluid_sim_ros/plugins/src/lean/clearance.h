@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Whether any two geoms of a model can touch, from the positions of its trees alone.
 //
 // A tree (a free vehicle, a pendulum) lies in a ball about its first body, whatever its joints do.

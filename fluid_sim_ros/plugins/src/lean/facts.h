@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a model that decide which work of a step can be left out.
 
 #ifndef FLUID_SIM_LEAN_FACTS_H_

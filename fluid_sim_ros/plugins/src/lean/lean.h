@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Steps of a model without the work that cannot change its state.
 //
 // Three savings, all exact to the bit:

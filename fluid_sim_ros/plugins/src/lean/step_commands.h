@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // What is written into mjData before each step of a call: waves on joints, and wrenches that turn
 // with their bodies.
 

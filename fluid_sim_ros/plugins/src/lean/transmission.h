@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Moments of actuators at sites, along the site's own tree alone.
 //
 // mj_transmission makes a Jacobian over all degrees of freedom for each of them: in a fleet it

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Coloured noise on a fixed tick: linear filters of white noise, discretised exactly.
 //
 // The samples at the ticks have the covariance of the continuous process; between them a cubic

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The undisturbed flow of one fluid at a world point and time: every kind of weather adds to it.
 //
 // A contributor (stream, turbulence, ...) adds u, du/dt at the fixed point and the gradient of u;

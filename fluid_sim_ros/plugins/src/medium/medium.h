@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // fluid_sim.medium: the fluids around the bodies, at most one per model.
 //
 // Two fluids with a level surface between them (water under air), or one fluid everywhere. Each

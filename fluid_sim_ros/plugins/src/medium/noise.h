@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Counter-based normal random numbers: a pure function of (seed, stream, index).
 //
 // Philox4x64-10 (Salmon et al. 2011, Parallel random numbers: as easy as 1, 2, 3), which numpy has

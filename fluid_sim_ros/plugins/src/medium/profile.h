@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Vertical profile of a wind or a current: a factor on the run-time velocity.
 
 #ifndef FLUID_SIM_MEDIUM_PROFILE_H_

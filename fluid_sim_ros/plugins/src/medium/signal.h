@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Known functions of time that a wind or a current adds to its mean, with exact derivatives.
 
 #ifndef FLUID_SIM_MEDIUM_SIGNAL_H_

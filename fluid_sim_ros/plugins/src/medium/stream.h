@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // A wind or a current: (mean + signals + Gauss-Markov process) times a profile over the height.
 //
 // The mean follows a run-time target at a limited rate, in closed form, so that its time

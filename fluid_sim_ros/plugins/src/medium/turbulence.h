@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Continuous turbulence of Dryden or von Karman (MIL-F-8785C), a process of its own per vehicle.
 //
 // Axes: u along the direction in which the mean relative wind passes the vehicle, w up. The unit

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Components of the waves (see waves.h), made once when the model is loaded.
 // numpy twins: physics/waves.py, physics/wave_spectrum.py.
 

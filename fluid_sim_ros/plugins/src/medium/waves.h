@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Linear (Airy) waves on the free surface: a sum of plane waves, for deep and finite depth.
 //
 // theta = k.x - omega t + phase; eta = sum a cos(theta). Dean and Dalrymple (1991), Water Wave

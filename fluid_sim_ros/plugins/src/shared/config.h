@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Reads the attributes of a plugin instance; every problem becomes one line for the user.
 
 #ifndef FLUID_SIM_SHARED_CONFIG_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Numbers and small functions of one number that every folder uses.
 
 #ifndef FLUID_SIM_SHARED_NUMBERS_H_

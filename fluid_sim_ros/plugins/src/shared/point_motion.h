@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Velocity of, and wrenches at, points of bodies, in world axes.
 
 #ifndef FLUID_SIM_SHARED_POINT_MOTION_H_

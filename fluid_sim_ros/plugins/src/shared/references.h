@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Checks that bodies and actuators refer to plugin instances that can be theirs.
 //
 // MuJoCo's attach (of <attach> and MjSpec.attach_body) keeps named instances, but drops a plugin

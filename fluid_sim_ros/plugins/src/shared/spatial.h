@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Small 3-vector and 6x6 helpers. A 6-vector is (linear, angular), a 6x6 matrix is row major.
 //
 // "About a point": the velocities are those of that body point, the torques are about it.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // The terms that a fluid wrench is made of, and what a wrench is.
 
 #ifndef FLUID_SIM_SHARED_TERMS_H_

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // What an axial inflow takes of the thrust of a rotor that is known at rest only.
 //
 // Twin of inflow_thrust in fluid_sim_ros/physics/inflow.py. J0 is the advance ratio V/(n D) at

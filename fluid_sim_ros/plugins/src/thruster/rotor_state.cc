@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // From the command to the speed of a rotor, and what it does at rest at that speed.
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Thrust of the Blue Robotics T200 at rest against pulse width, for any supply of 10 to 20 V.
 
 #ifndef FLUID_SIM_THRUSTER_T200_H_

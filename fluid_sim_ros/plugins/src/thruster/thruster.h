@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // fluid_sim.thruster: a rotor on a site, from the command to thrust, reaction torque and drag.
 //
 // One plugin instance serves up to two actuators on one site: the force along the thrust axis and

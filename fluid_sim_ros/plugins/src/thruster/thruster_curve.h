@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Thrust and shaft torque of a rotor as pure functions of its speed and inflow.
 //
 // Twin of fluid_sim_ros/physics/propulsion.py. The thrust axis is the direction of the force for

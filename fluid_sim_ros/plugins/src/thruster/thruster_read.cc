@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Reads the attributes of fluid_sim.thruster (units, signs and defaults: doc/thruster.md).
 
 #include "thruster/thruster_read.h"

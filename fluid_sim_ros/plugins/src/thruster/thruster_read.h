@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
 // Parts of the reader of fluid_sim.thruster.
 
 #ifndef FLUID_SIM_THRUSTER_THRUSTER_READ_H_

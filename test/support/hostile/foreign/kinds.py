@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Each kind of hostile file by name: how one is made, and what is done with it."""
 
 import hashlib

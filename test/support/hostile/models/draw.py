@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Numbers, words and matrices of a seed: most of them usual, some at the ends of the allowed."""
 
 import math

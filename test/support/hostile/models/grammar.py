@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Whole models: trees of bodies with geoms, plugins on them, thrusters, foils and a fluid."""
 
 from collections import defaultdict

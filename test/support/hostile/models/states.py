@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What is done with a drawn model: steps, and states, times and commands that are no numbers."""
 
 import mujoco

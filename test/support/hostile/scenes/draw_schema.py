@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Draws a mapping that a schema takes, from the schema itself: a new key is drawn at once."""
 
 import types

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """What the types of the schemas do not say: rules between keys, files, names, orders."""
 
 from collections.abc import Mapping

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
 """Whole scene files, of one model and of fleets, with the files of weather that they name."""
 
 from collections.abc import Mapping
