@@ -15,6 +15,7 @@ import pytest
 
 from fluid_sim_ros import cli, scene_names
 from fluid_sim_ros.cli import completion
+from fluid_sim_ros.cli.main import _build_parser
 from fluid_sim_ros.cli.parser import Parser
 from fluid_sim_ros.cli.tables import short, table_of
 from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
@@ -266,7 +267,7 @@ def test_a_column_that_says_nothing_is_left_out():
 
 
 def test_every_positional_argument_and_file_option_is_completed():
-    parser = cli.main.__globals__['_build_parser']()
+    parser = _build_parser()
     assert isinstance(parser, Parser)
     for name, command in parser.commands.items():
         for action in command._actions:

@@ -41,7 +41,9 @@ def late(path, table, seconds, names=STATE, noise=True):
 
 
 @pytest.mark.parametrize(('name', 'names', 'seconds'), [
-    ('delay', STATE, 0.023), ('delay.rates', ('rates',), 0.0371), ('delay', STATE, -0.0184),
+    ('delay', STATE, 0.023),
+    pytest.param('delay.rates', ('rates',), 0.0371, marks=pytest.mark.full),
+    pytest.param('delay', STATE, -0.0184, marks=pytest.mark.full),
 ])  # fmt: skip
 def test_a_delay_is_found_within_three_errors(tmp_path, flown, name, names, seconds):
     flight = read_flight(late(tmp_path / 'late.csv', flown, seconds, names))

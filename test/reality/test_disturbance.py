@@ -49,6 +49,7 @@ def test_knots_follow_a_wind_within_three_errors(flight):
     assert any('slow_wind.x.1 (windy.csv): 5 knots' in line for line in found.lines)
 
 
+@pytest.mark.full
 def test_without_it_the_drag_is_off(tmp_path):
     path = tmp_path / 'windy.csv'
     path.write_text(csv_text(x500_table(seconds=8.0, noise=NOISE, wind=wind)))

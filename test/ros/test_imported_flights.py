@@ -33,6 +33,7 @@ def test_the_quadrotor_of_a_urdf_flies_to_a_waypoint(tmp_path):
     assert there == pytest.approx([1.0, 0.5, 2.0, 0.5], abs=0.03)
 
 
+@pytest.mark.full
 def test_the_rov_of_a_urdf_dives_and_turns(tmp_path):
     scene = imported('frame_rov', tmp_path, '--panels', '60')
     with Peer() as peer:
