@@ -64,6 +64,7 @@ def test_keys_steer_a_node_whose_controller_follows_cmd_vel():
             keys.send('[0, 0, 0, 0]')
             with controller('rov', vehicle='bluerov2_heavy') as flown:
                 wait_until(lambda: 'bluerov2_heavy' in flown.output or len(odometry) > 300, 'it')
+                wait_until(lambda: odometry, 'odometry')
                 start = odometry[-1].pose.pose.position.z
                 seen = peer.collect(Twist, 'bluerov2_heavy/cmd_vel')
 
