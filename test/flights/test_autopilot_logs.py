@@ -180,11 +180,12 @@ def read(tmp_path, kind, stream, columns, values):
     return read_flight(path)
 
 
-@pytest.mark.parametrize('kind', list(PLACES))
-@pytest.mark.parametrize(('quantity', 'there', 'here'), VECTORS)
+@pytest.mark.parametrize(
+    ('kind', 'quantity', 'there', 'here'),
+    # an estimate has no sensors in it
+    [(kind, *vector) for kind in PLACES for vector in VECTORS if vector[0] in PLACES[kind]],
+)
 def test_each_axis_of_each_vector(tmp_path, kind, quantity, there, here):
-    if quantity not in PLACES[kind]:
-        pytest.skip('an estimate has no sensors in it')
     flight = read(tmp_path, kind, *PLACES[kind][quantity], there)
 
     np.testing.assert_allclose(flight.signals[quantity].values, np.tile(here, (4, 1)), atol=1e-6)

@@ -1,32 +1,18 @@
 # SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-IGNORED = ('.git', '.venv', 'build', 'install', 'log', 'out')
+from test.support.paths import ROOT
+from test.support.project_files import project_files
+
 # Home folders and places of one machine; ROS topics and system folders are not among them.
 MACHINE_PATH = re.compile(r'(?<![\w.$}*-])/(?:home|root|work|Users|mnt|workspace|builds)/[\w.]')
 REGISTRY = re.compile(
     r'pypi\.(?:org|python)|python(?:hosted)\.org|(?:extra-)?index-url|find-links'
 )
-
-
-def project_files():
-    """Return the files that git tracks; outside a git checkout, all but what was built."""
-    listing = subprocess.run(
-        ['git', 'ls-files', '-z'], cwd=ROOT, capture_output=True, text=True, check=False
-    )
-    if listing.returncode == 0 and listing.stdout:
-        paths = [ROOT / name for name in listing.stdout.split('\0') if name]
-        return [path for path in paths if path.is_file()]
-    return [
-        path for path in ROOT.rglob('*')
-        if path.is_file() and path.relative_to(ROOT).parts[0] not in IGNORED
-    ]  # fmt: skip
 
 
 def faults(text):
