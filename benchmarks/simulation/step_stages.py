@@ -56,6 +56,7 @@ def describe(scene: str) -> dict[str, Any]:
         'constraints': stages.constraints,
         'geoms': f'{stages.moved_geoms} of {stages.geoms}',
         'moments_by_tree': stages.moments_by_tree,
+        'fluid_by_chain': stages.fluid_by_chain,
         'gaits': list(simulation.scene.gait),
         'block': alone,
         'block_of_a_run': shortest_block(simulation, watched=True),
@@ -65,7 +66,8 @@ def describe(scene: str) -> dict[str, Any]:
 def table(result: dict[str, Any]) -> str:
     """Return the stages as a table in Markdown."""
     names = (
-        'contacts', 'other constraints', 'geoms at every evaluation', 'moments', 'gait',
+        'contacts', 'other constraints', 'geoms at every evaluation', 'moments', "MuJoCo's fluid",
+        'gait',
         'steps a call', 'steps a call in a run',
     )  # fmt: skip
     lines = [f'| Scene | {" | ".join(names)} |', '|---' * (len(names) + 1) + '|']
@@ -78,6 +80,7 @@ def table(result: dict[str, Any]) -> str:
             'always' if row['constraints'] else 'none',
             row['geoms'],
             'by tree' if row['moments_by_tree'] else "MuJoCo's",
+            'by chain' if row['fluid_by_chain'] else '',
             'compiled' if row['gaits'] else '',
             str(row['block']),
             str(row['block_of_a_run']),

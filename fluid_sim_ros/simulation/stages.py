@@ -40,6 +40,8 @@ class Stages:
         Whether the last step was without contacts.
     moments_by_tree
         Whether moments of actuators at sites are made along their own trees alone.
+    fluid_by_chain
+        Whether MuJoCo's own fluid forces are made along each body's chain of joints alone.
 
     """
 
@@ -50,6 +52,7 @@ class Stages:
     geoms: int
     without_contacts: bool
     moments_by_tree: bool
+    fluid_by_chain: bool
 
     @classmethod
     def of(cls, stepped: int, geoms: int) -> 'Stages':
@@ -69,9 +72,9 @@ class Stages:
             As the model is now.
 
         """
-        out = np.zeros(6, dtype=np.int32)
+        out = np.zeros(7, dtype=np.int32)
         nat.native().lean_about(stepped, out.ctypes.data)
-        whole, contacts, constraints, moved, without, by_tree = out.tolist()
+        whole, contacts, constraints, moved, without, by_tree, by_chain = out.tolist()
         return cls(
             whole=_WHOLE[whole],
             contacts=_CONTACTS[contacts],
@@ -80,6 +83,7 @@ class Stages:
             geoms=geoms,
             without_contacts=bool(without),
             moments_by_tree=bool(by_tree),
+            fluid_by_chain=bool(by_chain),
         )
 
     def words(self) -> str:
@@ -95,4 +99,5 @@ class Stages:
         all_geoms = self.contacts == 'always'
         geoms = 'all' if all_geoms else f'{self.moved_geoms} of {self.geoms}'
         moments = '; moments of actuators at sites by tree' if self.moments_by_tree else ''
-        return f'{contacts}; {others}; places of {geoms} geoms at every evaluation{moments}'
+        fluid = "; MuJoCo's fluid forces by chain" if self.fluid_by_chain else ''
+        return f'{contacts}; {others}; places of {geoms} geoms at every evaluation{moments}{fluid}'

@@ -144,7 +144,8 @@ FSR_API void fsr_lean_hold_wrenches(void* stepped, int count, const int* address
 // What the steps leave out: out[0] why nothing at all (enum Whole, 0: they do), out[1] when
 // contacts are looked for (enum Contacts), out[2] 1 if there are other constraints, out[3] the
 // geoms that move at every evaluation, out[4] 1 if the last step was without contacts, out[5] 1 if
-// moments of actuators at sites are made along their own trees alone.
+// moments of actuators at sites are made along their own trees alone, out[6] 1 if MuJoCo's own
+// fluid forces are made along each body's chain alone.
 FSR_API void fsr_lean_about(void* stepped, int* out) {
   Stepped* s = static_cast<Stepped*>(stepped);
   s->lean.Begin(s->m);
@@ -154,4 +155,5 @@ FSR_API void fsr_lean_about(void* stepped, int* out) {
   out[3] = s->lean.moved_geoms();
   out[4] = s->lean.off();
   out[5] = s->lean.disguised();
+  out[6] = s->lean.fluid();
 }

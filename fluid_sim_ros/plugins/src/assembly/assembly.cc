@@ -13,6 +13,7 @@
 #include "body/factor.h"
 #include "body/inertia.h"
 #include "body/stock_terms.h"
+#include "lean/served.h"
 #include "shared/config.h"
 #include "shared/point_motion.h"
 #include "shared/references.h"
@@ -97,9 +98,10 @@ void Note(const BodyForces& forces, mjtNum timestep, BodyLimits* limits) {
   limits->reynolds = std::max(limits->reynolds, forces.reynolds);
 }
 
-// The secant D_s makes drag implicit for the first-order integrators: (M + A + h D_s) qacc = f.
+// `fresh`: the inertia matrix was made since the positions came, and not changed. The secant D_s
+// makes drag implicit for the first-order integrators: (M + A + h D_s) qacc = f.
 // RK4 needs the true acceleration at each stage.
-void Evaluate(Assembly& assembly, const mjModel* m, mjData* d) {
+void Evaluate(Assembly& assembly, const mjModel* m, mjData* d, bool fresh) {
   const bool secant = m->opt.integrator != mjINT_RK4;
   bool any = false, chain = false;
   for (const BodyFluid& body : assembly.bodies) {
@@ -107,7 +109,7 @@ void Evaluate(Assembly& assembly, const mjModel* m, mjData* d) {
     any |= adds;
     chain |= adds && body.free_dof < 0;
   }
-  if (chain) mj_makeM(m, d);  // a repeated evaluation must not add A twice
+  if (chain && !fresh) mj_makeM(m, d);  // a repeated evaluation must not add A twice
   // the blocks of other trees are factored already
   bool factor_all = chain || (m->opt.enableflags & mjENBL_SLEEP);
   for (size_t i = 0; i < assembly.bodies.size(); ++i) {
@@ -167,12 +169,14 @@ void Reset(const mjModel* m, mjtNum* state, void* data, int instance) {
   }
 }
 
-void Compute(const mjModel* m, mjData* d, int instance, int) {
+void Compute(const mjModel* given, mjData* d, int instance, int) {
+  const mjModel* m = WholeModel(given);
   Assembly* assembly = Stored(d, instance);
-  if (assembly && assembly->owner == instance) Evaluate(*assembly, m, d);
+  if (assembly && assembly->owner == instance) Evaluate(*assembly, m, d, m != given);
 }
 
-void Advance(const mjModel* m, mjData* d, int instance) {
+void Advance(const mjModel* given, mjData* d, int instance) {
+  const mjModel* m = WholeModel(given);
   const Assembly* assembly = Stored(d, instance);
   if (!assembly) return;
   if (assembly->medium.instance == instance) AdvanceMedium(assembly->medium, m, d);

@@ -213,7 +213,8 @@ Motion BodyMotion(const mjModel* m, const mjData* d, const BodyFluid& body) {
   while (m->body_dofnum[moving] == 0) moving = m->body_parentid[moving];
   const int last = m->body_dofadr[moving] + m->body_dofnum[moving] - 1;
   for (int dof = last; dof >= 0; dof = m->dof_parentid[dof]) {
-    mju_addToScl(accel, d->cdof_dot + 6 * dof, d->qvel[dof], 6);
+    AddScaled3(accel, d->cdof_dot + 6 * dof, d->qvel[dof]);
+    AddScaled3(accel + 3, d->cdof_dot + 6 * dof + 3, d->qvel[dof]);
   }
   Subtract3(arm, out.point_w, com);
   Copy3(v_w, spatial + 3);

@@ -47,6 +47,28 @@ const mjtNum* RigidMatrix(const mjModel* m, const BodyFluid& body) {
   return out;
 }
 
+constexpr int kLongest = 32;  // chain that is worked on side by side
+
+// Motions of a chain's degrees of freedom, or their momenta.
+struct Chain {
+  mjtNum rows[6][kLongest];
+};
+
+// M += the inertia G about the tree's centre of mass, along the chain that ends with `last`.
+void AddLongChainInertia(const mjModel* m, mjData* d, int last, const mjtNum at_com[36]) {
+  for (int i = last; i >= 0; i = m->dof_parentid[i]) {
+    mjtNum axis[6], column[6];  // (linear, angular) motion of dof i and its momentum
+    Copy3(axis, d->cdof + 6 * i + 3);
+    Copy3(axis + 3, d->cdof + 6 * i);
+    MultiplyMatrix6(column, at_com, axis);
+    mjtNum* entry = d->M + m->M_rowadr[i] + m->M_rownnz[i];
+    for (int j = i; j >= 0; j = m->dof_parentid[j]) {
+      const mjtNum* other = d->cdof + 6 * j;
+      *--entry += Dot3(other + 3, column) + Dot3(other, column + 3);
+    }
+  }
+}
+
 }  // namespace
 
 void ApplyWrench(const mjModel* m, mjData* d, const BodyFluid& body, const Motion& motion,
@@ -121,16 +143,28 @@ void AddChainInertia(const mjModel* m, mjData* d, const BodyFluid& body, const M
   ComArm(m, d, body, motion, offset);
   Scale3(offset, offset, -1);
   ShiftMatrix6(at_com, turned, offset);
-  for (int i = ChainDof(m, body.id); i >= 0; i = m->dof_parentid[i]) {
-    mjtNum axis[6], column[6];  // (linear, angular) motion of dof i and its momentum
-    Copy3(axis, d->cdof + 6 * i + 3);
-    Copy3(axis + 3, d->cdof + 6 * i);
-    MultiplyMatrix6(column, at_com, axis);
-    // row i of the lower triangle holds exactly the chain from the root to i
-    mjtNum* entry = d->M + m->M_rowadr[i] + m->M_rownnz[i];
-    for (int j = i; j >= 0; j = m->dof_parentid[j]) {
-      const mjtNum* other = d->cdof + 6 * j;
-      *--entry += Dot3(other + 3, column) + Dot3(other, column + 3);
+  const int last = ChainDof(m, body.id), length = m->M_rownnz[last];
+  if (length > kLongest) return AddLongChainInertia(m, d, last, at_com);
+  // row i of the lower triangle holds exactly the chain from the root to i: side by side in memory
+  Chain axis, column;
+  const int* chain = m->M_colind + m->M_rowadr[last];
+  for (int i = 0; i < length; ++i) {
+    const mjtNum* cdof = d->cdof + 6 * chain[i];
+    for (int k = 0; k < 6; ++k) axis.rows[k][i] = cdof[(k + 3) % 6];  // (linear, angular)
+  }
+  for (int k = 0; k < 6; ++k) {
+    const mjtNum* a = at_com + 6 * k;
+    for (int i = 0; i < length; ++i) {
+      column.rows[k][i] = a[0] * axis.rows[0][i] + a[1] * axis.rows[1][i] + a[2] * axis.rows[2][i] +
+                          a[3] * axis.rows[3][i] + a[4] * axis.rows[4][i] + a[5] * axis.rows[5][i];
+    }
+  }
+  for (int i = 0; i < length; ++i) {
+    mjtNum c[6], *row = d->M + m->M_rowadr[chain[i]];
+    for (int k = 0; k < 6; ++k) c[k] = column.rows[k][i];
+    for (int j = 0; j <= i; ++j) {
+      row[j] += axis.rows[0][j] * c[0] + axis.rows[1][j] * c[1] + axis.rows[2][j] * c[2] +
+                (axis.rows[3][j] * c[3] + axis.rows[4][j] * c[4] + axis.rows[5][j] * c[5]);
     }
   }
 }

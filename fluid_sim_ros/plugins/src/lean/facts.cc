@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "lean/transmission.h"
+#include "lean/served.h"
 
 namespace fluid_sim {
 namespace {
@@ -13,6 +13,8 @@ namespace {
 bool Collides(const mjModel* m, int geom) {
   return m->geom_contype[geom] || m->geom_conaffinity[geom];
 }
+
+bool HasFluid(const mjModel* m) { return m->opt.density != 0 || m->opt.viscosity != 0; }
 
 // Hand every fact to visit(number), in a fixed order, until one returns false.
 template <class Visit>
@@ -23,6 +25,14 @@ bool VisitFacts(const mjModel* m, const Visit& visit) {
     }
     return true;
   };
+  if (HasFluid(m)) {  // that MuJoCo's own forces are of
+    if (!visit(m->opt.density) || !visit(m->opt.viscosity) || !all(m->body_mass, m->nbody) ||
+        !all(m->body_inertia, 3 * m->nbody) || !all(m->body_gravcomp, m->nbody) ||
+        !all(m->geom_fluid, mjNFLUID * m->ngeom) || !all(m->geom_type, m->ngeom) ||
+        !all(m->geom_size, 3 * m->ngeom)) {
+      return false;
+    }
+  }
   for (int i = 0; i < m->ngeom; ++i) {
     if (!visit(m->geom_contype[i]) || !visit(m->geom_conaffinity[i]) ||
         !visit(m->geom_fluid[mjNFLUID * i] > 0)) {
@@ -35,7 +45,7 @@ bool VisitFacts(const mjModel* m, const Visit& visit) {
       return false;
     }
   }
-  return visit(m->opt.disableflags) && all(m->body_pos, 3 * m->nbody) &&
+  return visit(HasFluid(m)) && visit(m->opt.disableflags) && all(m->body_pos, 3 * m->nbody) &&
          all(m->body_quat, 4 * m->nbody) && all(m->jnt_pos, 3 * m->njnt) &&
          all(m->jnt_limited, m->njnt) && all(m->dof_frictionloss, m->nv) &&
          all(m->tendon_limited, m->ntendon) && all(m->tendon_frictionloss, m->ntendon) &&
@@ -72,10 +82,10 @@ bool HasConstraints(const mjModel* m) {
          Any(m->tendon_frictionloss, m->ntendon);
 }
 
-int NeededGeoms(const mjModel* m) {
+int NeededGeoms(const mjModel* m, bool fluid_served) {
   if (m->nsensor > 0) return static_cast<int>(m->ngeom);
   int last = -1;
-  for (int i = 0; i < m->ngeom; ++i) {
+  for (int i = 0; i < m->ngeom && HasFluid(m) && !fluid_served; ++i) {
     if (m->geom_fluid[mjNFLUID * i] > 0) last = i;
   }
   for (int i = 0; i < m->nwrap; ++i) {
@@ -95,8 +105,8 @@ bool OwnPluginsOnly(const mjModel* m) {
 }
 
 bool NoCallbacks() {
-  return !mjcb_passive && NoControlCallback() && !mjcb_contactfilter && !mjcb_sensor &&
-         !mjcb_act_dyn && !mjcb_act_gain && !mjcb_act_bias;
+  return NoForeignCallback() && !mjcb_contactfilter && !mjcb_sensor && !mjcb_act_dyn &&
+         !mjcb_act_gain && !mjcb_act_bias;
 }
 
 }  // namespace fluid_sim

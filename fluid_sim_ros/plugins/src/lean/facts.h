@@ -20,8 +20,9 @@ bool SameFacts(const mjModel* m, const std::vector<mjtNum>& facts);
 // Whether the model has constraints that are no contacts.
 bool HasConstraints(const mjModel* m);
 
-// How many of the first geoms forces, tendons or sensors need at every evaluation.
-int NeededGeoms(const mjModel* m);
+// How many of the first geoms forces, tendons or sensors need at every evaluation, without those
+// that a served fluid (stock_fluid.h) places itself.
+int NeededGeoms(const mjModel* m, bool fluid_served);
 
 // Only fluid_sim.* plugins.
 bool OwnPluginsOnly(const mjModel* m);

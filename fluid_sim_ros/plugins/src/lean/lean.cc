@@ -54,9 +54,9 @@ void Lean::Learn(const mjModel* m) {
   ReadFacts(m, &facts_);
   clearance_ = std::make_unique<Clearance>(m);
   transmission_.Learn(m);
+  fluid_.Learn(m);
   own_plugins_ = OwnPluginsOnly(m);
   constraints_ = HasConstraints(m);
-  moved_geoms_ = NeededGeoms(m);
   kept_.resize(1 + m->nq + 2 * m->nv + m->na + m->nhistory + m->npluginstate);
   wait_ = 0;
 }
@@ -70,6 +70,9 @@ void Lean::Begin(const mjModel* m) {
   head_.actuator_trnid = m->actuator_trnid;
   disguised_ = whole_ == Whole::kNo && transmission_.Ready(m);
   if (disguised_) transmission_.Disguise(&head_);
+  fluid_ready_ = whole_ == Whole::kNo && fluid_.Ready(m);
+  if (fluid_ready_) fluid_.Disguise(&head_);
+  moved_geoms_ = NeededGeoms(m, fluid_ready_);
 }
 
 void Lean::Step(const mjModel* m, mjData* d, bool last) {
@@ -88,17 +91,36 @@ void Lean::Step(const mjModel* m, mjData* d, bool last) {
   head_.ncam = fewer && m->nsensor == 0 ? 0 : m->ncam;
   head_.nlight = fewer && m->nsensor == 0 ? 0 : m->nlight;
   const int before = FatalWarnings(d);
-  const Served served(disguised_ ? &head_ : nullptr, m);
-  if (contacts == Contacts::kWatched && off_ && m->opt.integrator == mjINT_RK4) {
-    if (!StepRungeKutta(m, d)) {
-      off_ = false;
-      wait_ = kWait;
-      mj_step(m, d);
-    }
+  const Served served({&head_, m, disguised_, fluid_ready_ ? &fluid_ : nullptr});
+  TakeStep(m, d, last);
+  if (off_ && FatalWarnings(d) != before) StepAfterReset(m, d);
+}
+
+void Lean::TakeStep(const mjModel* m, mjData* d, bool last) {
+  const int integrator = m->opt.integrator;
+  if (integrator == mjINT_RK4 && off_ && clearance_->contacts() == Contacts::kWatched) {
+    if (StepRungeKutta(m, d)) return;
+    off_ = false;
+    wait_ = kWait;
+    mj_step(m, d);
+  } else if (fluid_ready_ && (integrator == mjINT_IMPLICIT || integrator == mjINT_IMPLICITFAST)) {
+    StepImplicit(m, d, last);
   } else {
     mj_step(&head_, d);
   }
-  if (off_ && FatalWarnings(d) != before) StepAfterReset(m, d);
+}
+
+// mj_step of the head in the parts that MuJoCo names, with the slopes of the fluid.
+void Lean::StepImplicit(const mjModel* m, mjData* d, bool last) {
+  mj_checkPos(&head_, d);
+  mj_checkVel(&head_, d);
+  mj_forward(&head_, d);
+  mj_checkAcc(&head_, d);
+  if (fluid_.ReadySlopes(m)) return fluid_.Integrate(m, &head_, d, last);
+  head_.opt.density = m->opt.density;
+  head_.opt.viscosity = m->opt.viscosity;
+  mj_implicit(&head_, d);
+  fluid_.Disguise(&head_);
 }
 
 // mj_step of the head in the parts that MuJoCo names. False, with d as it was, where geoms could

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of a model without the work that cannot change its state.
 //
-// Three savings, all exact to the bit:
+// Savings, all exact to the bit:
 // - Contacts (and with them all constraints, where the model has no others) are off in a step
 //   while no two geoms can touch at any of its evaluations (clearance.h).
 // - Geoms that only are looked at, cameras and lights are moved in the last step of a call alone.
 // - Moments of actuators at sites are made along their own trees alone (transmission.h).
+// - So are MuJoCo's own fluid forces and their slopes (stock_fluid.h).
 // The step itself is MuJoCo's, of a copy of mjModel's head that shares all arrays with the model.
 
 #ifndef FLUID_SIM_LEAN_LEAN_H_
@@ -18,6 +19,8 @@
 #include <vector>
 
 #include "lean/clearance.h"
+#include "lean/served.h"
+#include "lean/stock_fluid.h"
 #include "lean/transmission.h"
 
 namespace fluid_sim {
@@ -45,12 +48,15 @@ class Lean {
   Contacts contacts() const { return clearance_->contacts(); }
   bool constraints() const { return constraints_; }  // other than contacts
   int moved_geoms() const { return moved_geoms_; }   // at every evaluation
+  bool fluid() const { return fluid_ready_; }        // by chain (stock_fluid.h)
   bool off() const { return off_; }                  // contacts, in the last step
   bool disguised() const { return disguised_; }      // moments by tree (transmission.h)
 
  private:
   void Learn(const mjModel* m);
+  void TakeStep(const mjModel* m, mjData* d, bool last);
   bool StepRungeKutta(const mjModel* m, mjData* d);
+  void StepImplicit(const mjModel* m, mjData* d, bool last);
   void StepAfterReset(const mjModel* m, mjData* d);
   void Keep(const mjModel* m, const mjData* d);
   void Restore(const mjModel* m, mjData* d) const;
@@ -60,10 +66,11 @@ class Lean {
   std::vector<mjtNum> facts_;  // what the rest was learnt from
   std::unique_ptr<Clearance> clearance_;
   Transmission transmission_;
+  StockFluid fluid_;
   std::vector<mjtNum> kept_;  // state before a step
   mjWarningStat kept_warnings_[mjNWARNING];
   Whole whole_ = Whole::kNo;
-  bool disguised_ = false;  // the head's actuators, in this call
+  bool disguised_ = false, fluid_ready_ = false;  // the head's actuators and fluid, in this call
   bool own_plugins_ = false, constraints_ = true, off_ = false;
   int moved_geoms_ = 0;
   int wait_ = 0;  // steps with contacts, before the next look

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lean/served.h"
 #include "shared/spatial.h"
 
 // Exported by MuJoCo's library without a declaration in its headers.
@@ -13,10 +14,6 @@ extern "C" void mju_mulMatVecSparse(mjtNum* res, const mjtNum* mat, const mjtNum
 
 namespace fluid_sim {
 namespace {
-
-// Read at every evaluation.
-__attribute__((tls_model("initial-exec"))) thread_local const mjModel *served_head = nullptr,
-                                                                      *served_model = nullptr;
 
 bool IsScalar(int joint_type) { return joint_type == mjJNT_HINGE || joint_type == mjJNT_SLIDE; }
 
@@ -55,7 +52,13 @@ int SiteRow(const mjModel* m, const mjData* d, int site, const mjtNum gear[6], i
   return count;
 }
 
-// What mj_transmission and mj_fwdVelocity write for the actuators of Transmission::Learn.
+template <class T>
+bool AllZero(const T* numbers, mjtSize count) {
+  return std::all_of(numbers, numbers + count, [](T x) { return x == 0; });
+}
+
+}  // namespace
+
 void WriteMoments(const mjModel* m, mjData* d) {
   int address = 0;
   for (int i = 0; i < m->nactuator; ++i) {
@@ -79,17 +82,6 @@ void WriteMoments(const mjModel* m, mjData* d) {
   mju_mulMatVecSparse(d->actuator_velocity, d->actuator_moment, d->qvel, static_cast<int>(m->nout),
                       d->moment_rownnz, d->moment_rowadr, d->moment_colind, nullptr);
 }
-
-void BeforeControl(const mjModel* m, mjData* d) {
-  if (m == served_head) WriteMoments(served_model, d);
-}
-
-template <class T>
-bool AllZero(const T* numbers, mjtSize count) {
-  return std::all_of(numbers, numbers + count, [](T x) { return x == 0; });
-}
-
-}  // namespace
 
 void Transmission::Learn(const mjModel* m) {
   served_ = false;
@@ -122,22 +114,12 @@ void Transmission::Learn(const mjModel* m) {
 
 bool Transmission::Ready(const mjModel* m) const {
   if (!served_ || (m->opt.disableflags & mjDSBL_ACTUATION)) return false;
-  if (!mjcb_control) mjcb_control = BeforeControl;
-  return mjcb_control == BeforeControl;
+  return InstallControl();
 }
 
 void Transmission::Disguise(mjModel* head) const {
   head->actuator_trntype = const_cast<int*>(type_.data());
   head->actuator_trnid = const_cast<int*>(target_.data());
 }
-
-Served::Served(const mjModel* head, const mjModel* m) {
-  served_head = head;
-  served_model = m;
-}
-
-Served::~Served() { served_head = served_model = nullptr; }
-
-bool NoControlCallback() { return !mjcb_control || mjcb_control == BeforeControl; }
 
 }  // namespace fluid_sim

@@ -34,18 +34,8 @@ class Transmission {
   std::vector<int> type_, target_;  // in the disguise
 };
 
-// While one lives, the callback serves evaluations of `head` in this thread: as those of the model
-// whose head it is a copy of.
-class Served {
- public:
-  Served(const mjModel* head, const mjModel* m);
-  ~Served();
-  Served(const Served&) = delete;
-  Served& operator=(const Served&) = delete;
-};
-
-// The callback is none, or the one of Served.
-bool NoControlCallback();
+// What mj_transmission and mj_fwdVelocity write for such actuators.
+void WriteMoments(const mjModel* m, mjData* d);
 
 }  // namespace fluid_sim
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "body/stock_terms.h"
+#include "lean/served.h"
 #include "shared/config.h"
 #include "shared/point_motion.h"
 #include "shared/references.h"
@@ -159,7 +160,8 @@ void ApplyPassive(const mjModel* m, mjData* d, const Thruster& t) {
   AddPassiveForce(m, d, t.body, site, wrench);
 }
 
-void Compute(const mjModel* m, mjData* d, int instance, int capability) {
+void Compute(const mjModel* given, mjData* d, int instance, int capability) {
+  const mjModel* m = WholeModel(given);
   const Thruster* thruster = Stored(d, instance);
   if (!thruster) return;
   if (capability & mjPLUGIN_ACTUATOR) ApplyActuators(m, d, *thruster);
