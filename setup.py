@@ -23,7 +23,7 @@ SOURCES = Path(PACKAGE, 'plugins', 'src')
 PLUGIN_LIBRARY = f'{PACKAGE}.plugins.libfluid_sim'
 # No contraction to fused multiply-add: results must not depend on the processor.
 COMPILE_FLAGS = [
-    '-std=c++17', '-O3', '-fPIC', '-fvisibility=hidden', '-ffp-contract=off',
+    '-std=c++17', '-O3', '-fPIC', '-pthread', '-fvisibility=hidden', '-ffp-contract=off',
     '-Wall', '-Wextra', '-Wno-unused-parameter',
 ]  # fmt: skip
 if platform.machine() == 'x86_64':
@@ -99,9 +99,8 @@ class BuildPluginLibrary(build_ext):
         paths = ['-Wl,-rpath,$ORIGIN/../../mujoco']
         if 'bdist_wheel' not in self.distribution.commands:
             paths.append(f'-Wl,-rpath,{mujoco}')
-        run_compiler(
-            [*compiler, *chosen, '-shared', *linked, str(library), *paths, '-o', str(output)]
-        )
+        shared = [*compiler, *chosen, '-shared', '-pthread']
+        run_compiler([*shared, *linked, str(library), *paths, '-o', str(output)])
 
 
 class WheelForEachPython(bdist_wheel):

@@ -74,13 +74,13 @@ NODE = textwrap.dedent("""
         outputs = self.sinks[0]
         while True:
             outputs.refresh()
-            if len(outputs._active) >= WANTED:
+            if sum(t.subscribed for t in outputs.topics) >= WANTED:
                 break
             time.sleep(0.05)
         start = time.perf_counter()
         plain(self, until)
         wall = time.perf_counter() - start
-        published = {t.name: t.published for t in outputs.topics if t.published}
+        published = {name: n for name, n in outputs.published().items() if n}
         print(repr((self.simulation.time, wall, published)), flush=True)
     runner.Runner.run = timed
     sys.exit(node.main(sys.argv))

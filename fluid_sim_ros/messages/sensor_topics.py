@@ -40,6 +40,8 @@ class SensorTopic(StateTopic):
 
     """
 
+    always = False
+
     def __init__(
         self,
         simulation: Simulation,
@@ -76,14 +78,14 @@ class SensorTopic(StateTopic):
         for single, numbers in self._singles:
             single[:] = numbers
 
-    def data(self) -> bytes:
-        """Return the message of a new reading, or nothing if none has appeared."""
+    def ready(self) -> bool:
+        """Return whether a new reading has appeared; its numbers are made then."""
         sensor = self._sensor
         sensor.update(self._simulation.tick, self._simulation.time_ns)
         if not (sensor.fresh and sensor.prepare(self._reading)):
-            return b''
+            return False
         self._stamp.set(sensor.time_ns)
-        return super().data()
+        return super().ready()
 
 
 def sensor_topics(simulation: Simulation, suite: SensorSuite, vehicle: str) -> list[SensorTopic]:

@@ -3,7 +3,7 @@
 """The state topics of a scene as bytes: which there are, how often, and what stands in them."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +16,7 @@ from fluid_sim_ros.messages.description_topics import description_topic, descrip
 from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.templates import Source, StampBytes, Template
-from fluid_sim_ros.messages.topic import NEWEST, STATE, Quality, StateTopic
+from fluid_sim_ros.messages.topic import NEWEST, STATE, MadeNumber, Quality, StateTopic
 from fluid_sim_ros.messages.transform_topics import MAP, transform_topics
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
@@ -64,6 +64,8 @@ class StateTopics:
         a controller can answer the state while the forces are evaluated.
     suites
         The sensors of each vehicle, sampled while their topics are asked for.
+    stamp
+        Of the state that was taken last.
     notes
         What the robot descriptions cannot say of the vehicles, a line each.
 
@@ -77,7 +79,7 @@ class StateTopics:
     def __init__(self, simulation: Simulation, settings: Mapping[str, Any]) -> None:
         self._simulation = simulation
         self._settings = settings
-        self._stamp = StampBytes()
+        self.stamp = StampBytes()
         self._forces_known = False
         self._refused: dict[str, str] = {}
         rows = simulation.observe(forces=True)
@@ -87,7 +89,7 @@ class StateTopics:
             self._add_vehicle(vehicle, rows[index])
         beat = self._beat('tf.rate')
         self.topics += transform_topics(
-            simulation, self.suites, rows, beat, self._stamp.view,
+            simulation, self.suites, rows, beat, self.stamp.view,
             settings['tf.root'], settings['tf.links'],
         )  # fmt: skip
         described = descriptions(simulation, self.suites)
@@ -123,7 +125,7 @@ class StateTopics:
     def take_state(self) -> None:
         """Take the present state as the one that ``data`` speaks of."""
         self._simulation.observe(forces=False)
-        self._stamp.set(self._simulation.time_ns)
+        self.stamp.set(self._simulation.time_ns)
         self._forces_known = False
 
     def data(self, topic: StateTopic) -> bytes:
@@ -144,12 +146,32 @@ class StateTopics:
             The message (CDR); empty where none is due, or a sensor has no new reading.
 
         """
-        if topic.uneven is not None and not topic.uneven.due(self._simulation.tick):
+        if not self._due(topic):
             return b''
         if topic.needs_forces and not self._forces_known:
             self._simulation.observe(forces=True)
             self._forces_known = True
         return topic.data()
+
+    def ready(self, topic: StateTopic) -> bool:
+        """
+        Make the numbers of a topic's message; for who has observed the state as it needs it.
+
+        Parameters
+        ----------
+        topic
+            One of ``topics``.
+
+        Returns
+        -------
+        bool
+            Whether there is a message.
+
+        """
+        return self._due(topic) and topic.ready()
+
+    def _due(self, topic: StateTopic) -> bool:
+        return topic.uneven is None or topic.uneven.due(self._simulation.tick)
 
     def _add_vehicle(self, vehicle: Vehicle, row: Array) -> None:
         name, settings = vehicle.name, self._settings
@@ -186,7 +208,7 @@ class StateTopics:
         # for eyes: a whole number of steps, at most at the rate
         steps = 1.0 / (settings['markers.rate'] * self._simulation.timestep)
         period = max(1, math.ceil(steps * (1.0 - 1e-9)))
-        self.topics.append(MarkerTopic(self._simulation, vehicle, row, self._stamp.view, period))
+        self.topics.append(MarkerTopic(self._simulation, vehicle, row, self.stamp.view, period))
         self.topics += sensor_topics(self._simulation, self.suites[name], name)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:
@@ -223,10 +245,28 @@ class StateTopics:
             numbers[2, :count] = data.qfrc_actuator[dof_places]
             numbers[2, count:] = efforts * data.actuator_force[vehicle.thruster_ids]
 
+        made = [
+            MadeNumber(numbers[row, i : i + 1], values[place : place + 1])
+            for row, values, places in (
+                (0, data.qpos, qpos_places), (1, data.qvel, dof_places),
+                (2, data.qfrc_actuator, dof_places),
+            )
+            for i, place in enumerate(places)
+        ]  # fmt: skip
+        made += [
+            MadeNumber(numbers[1, place : place + 1], None, actuator=i) for place, i in rotors
+        ]
+        made += [
+            MadeNumber(
+                numbers[2, count + i : count + i + 1],
+                data.actuator_force[actuator : actuator + 1], float(efforts[i]),
+            )
+            for i, actuator in enumerate(vehicle.thruster_ids)
+        ]  # fmt: skip
         rows = dict(zip(('position', 'velocity', 'effort'), numbers, strict=True))
         self._add(
             f'{vehicle.name}/joint_states', JOINT_STATE, 'joint_states.rate',
-            {'name': names, **rows}, rows, needs_forces=True, prepare=prepare,
+            {'name': names, **rows}, rows, needs_forces=True, prepare=prepare, numbers=made,
         )  # fmt: skip
 
     def _add(
@@ -239,16 +279,17 @@ class StateTopics:
         needs_forces: bool = False,
         prepare: Callable[[], None] | None = None,
         quality: Quality = STATE,
+        numbers: Sequence[MadeNumber] = (),
     ) -> None:
         """Add a topic: what stays in its message, and the arrays that each member follows."""
         beat = self._beat(rate)
         template = Template.of(message, constants, list(sources))
-        copies = [(place, self._stamp.view) for place in template.stamps]
+        copies = [(place, self.stamp.view) for place in template.stamps]
         copies += template.copies(list(sources.values()))
         self.topics.append(
             StateTopic(
                 name, message, template, beat.period, copies, needs_forces, prepare, quality,
-                uneven=None if beat.whole else beat,
+                uneven=None if beat.whole else beat, numbers=numbers,
             )
         )  # fmt: skip
 

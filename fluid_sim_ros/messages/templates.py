@@ -52,6 +52,8 @@ class Template:
         Views of its runs of numbers that change, in the order in which they were asked for.
     padding
         Offsets of the bytes between members, which are zero.
+    buffer
+        The message as it now stands.
 
     """
 
@@ -62,7 +64,7 @@ class Template:
         blocks: Sequence[tuple[int, int]],
         padding: Sequence[int],
     ) -> None:
-        self._buffer = buffer
+        self.buffer = buffer
         self.padding = padding
         view = memoryview(buffer)
         self.stamps = [view[start : start + _STAMP.size] for start in stamps]
@@ -106,7 +108,7 @@ class Template:
 
     def bytes(self) -> bytes:
         """Return the message as it now stands."""
-        return bytes(self._buffer)
+        return bytes(self.buffer)
 
     def copies(self, sources: Sequence[Source]) -> list[tuple[memoryview, memoryview]]:
         """

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """One outgoing topic: its template and which bytes go where."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
+
+from numpy.typing import NDArray
 
 from fluid_sim_ros.messages.templates import Template
 from fluid_sim_ros.step_clock import Beat
@@ -36,6 +38,28 @@ STATE = Quality()
 NEWEST = Quality(depth=1)
 SENSOR = Quality(reliable=False, depth=5)
 LATCHED = Quality(depth=1, transient_local=True)
+
+
+class MadeNumber(NamedTuple):
+    """
+    A number that the compiled tick makes: ``scale`` times ``source``.
+
+    Attributes
+    ----------
+    target, source
+        Views of one number, of double precision. Without a source it is the speed of the rotor of
+        a fluid_sim.thruster [rad/s].
+    scale
+        Factor.
+    actuator
+        Of the thruster.
+
+    """
+
+    target: NDArray[Any]
+    source: NDArray[Any] | None
+    scale: float = 1.0
+    actuator: int = -1
 
 
 @dataclass
@@ -74,6 +98,8 @@ class StateTopic:
         does no harm.
     for_display
         Published at its rate of wall time at most, and also while the simulation stands.
+    numbers
+        What ``prepare`` makes, in the words of the compiled tick; empty: only ``prepare`` can.
 
     """
 
@@ -89,13 +115,28 @@ class StateTopic:
     new_name: str = ''
     uneven: Beat | None = None
     once: bool = False
+    numbers: Sequence[MadeNumber] = ()
 
     for_display: ClassVar[bool] = False
+    #: Whether there is a message at each due step.
+    always: ClassVar[bool] = True
+
+    @property
+    def asks(self) -> bool:
+        """Whether the compiled tick must call ``ready`` for a message."""
+        made_here = self.prepare is not None and not self.numbers
+        return made_here or self.uneven is not None or not self.always
+
+    def ready(self) -> bool:
+        """Make the numbers of the state observed last; return whether there is a message."""
+        if self.prepare is not None:
+            self.prepare()
+        return True
 
     def data(self) -> bytes:
         """Return the message of the state observed last, or nothing if there is none."""
-        if self.prepare is not None:
-            self.prepare()
+        if not self.ready():
+            return b''
         for target, source in self.copies:
             target[:] = source
         return self.template.bytes()

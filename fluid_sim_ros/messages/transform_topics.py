@@ -101,7 +101,7 @@ def transform_topics(
             fixed.append(_transform(*frames, frame.position_b, frame.quat_bf_wxyz))
 
     def prepare() -> None:
-        qpos = simulation.observed.qpos
+        qpos = simulation.data.qpos  # `observed` is of the last state with forces
         for link, pose in joints:
             pose[:3], pose[3:] = link_pose(model, link, qpos)
 

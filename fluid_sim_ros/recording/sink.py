@@ -11,6 +11,7 @@ from fluid_sim_ros.loop.recorder_port import RecordedTopic, RecorderOptions, sel
 from fluid_sim_ros.messages import commands as command_messages
 from fluid_sim_ros.messages import state_topics
 from fluid_sim_ros.messages.commands import Commands
+from fluid_sim_ros.messages.compiled_tick import CompiledTick
 from fluid_sim_ros.messages.state_topics import StateTopics
 from fluid_sim_ros.messages.topic import NEWEST
 from fluid_sim_ros.recording.recorder import Recorder
@@ -51,7 +52,8 @@ class RecordingSink:
             [topic.name for topic in self._states.topics], topics,
             old_names=[topic.name for topic in self._states.topics if topic.new_name],
         )  # fmt: skip
-        wanted = [topic for topic in self._states.topics if topic.name in names]
+        places = [i for i, topic in enumerate(self._states.topics) if topic.name in names]
+        wanted = [self._states.topics[i] for i in places]
         commands = Commands(simulation, known).topics
         channels = [
             RecordedTopic(f'/{t.name.lstrip("/")}', t.type, t.name, *t.quality) for t in wanted
@@ -59,7 +61,10 @@ class RecordingSink:
         channels += [RecordedTopic(f'/{t.name}', t.type, t.name, *NEWEST) for t in commands]
         options = RecorderOptions(path, known, allow_assets_from=tuple(allow_assets_from))
         self.recorder = Recorder(simulation, channels, options)
-        self._topics = list(enumerate(wanted))
+        self._once = [(i, topic) for i, topic in enumerate(wanted) if topic.once]
+        self._recorded = {place: i for i, place in enumerate(places)}
+        self._compiled = CompiledTick(simulation, self._states)
+        self._compiled.choose([p for p in places if not self._states.topics[p].once])
         self._commands = {topic.name: len(wanted) + i for i, topic in enumerate(commands)}
         self._begun = False  # whether the file has what never changes
         self.period = math.gcd(*(topic.period for topic in wanted if not topic.once)) or NEVER
@@ -74,14 +79,17 @@ class RecordingSink:
             At the step that is recorded.
 
         """
-        tick = simulation.tick
-        due = [(i, t) for i, t in self._topics if tick % t.period == 0 and not t.once]
+        topics = self._states.topics
+        messages: list[tuple[int, bytes]] = []
         if not self._begun:
             self._begun = True
-            due = [(i, t) for i, t in self._topics if t.once] + due
-        self._states.take_state()
-        messages = [(i, self._states.data(topic)) for i, topic in due]
-        self.recorder.tick([message for message in messages if message[1]])
+            messages += [(i, topic.data()) for i, topic in self._once]
+        self._compiled.take()
+        messages += [
+            (self._recorded[place], topics[place].template.bytes())
+            for place in self._compiled.made()
+        ]
+        self.recorder.tick(messages)
 
     def command(self, name: str, data: bytes) -> None:
         """

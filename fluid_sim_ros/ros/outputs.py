@@ -11,10 +11,12 @@ from rclpy.node import Node
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.loop.recorder_port import RecorderPort
+from fluid_sim_ros.messages.compiled_tick import CompiledTick
 from fluid_sim_ros.messages.state_topics import CLOCK, StateTopics
 from fluid_sim_ros.messages.topic import StateTopic
 from fluid_sim_ros.ros.inputs import REFRESH_PERIOD
 from fluid_sim_ros.ros.message_types import find_message_class
+from fluid_sim_ros.ros.publishing import Publishing
 from fluid_sim_ros.ros.raw import RawPublisher
 from fluid_sim_ros.simulation import Simulation
 
@@ -33,30 +35,16 @@ class Topic:
     full: str
     record: int = -1
     subscribed: bool = False
-    published: int = 0
 
     def __post_init__(self) -> None:
         self.name, self.period = self.state.name, self.state.period
-
-    def publish(self, data: bytes) -> None:
-        """
-        Send a message to the subscribers.
-
-        Parameters
-        ----------
-        data
-            The message (CDR).
-
-        """
-        if self.publisher is not None:
-            self.publisher.publish(data)
-            self.published += 1
 
 
 class Outputs:
     """
     Every state topic of a node, as one sink for the runner.
 
+    A tick is one call of the compiled library, unless Python has to make numbers in between.
     Its period is the greatest common divisor of the periods of the topics that are wanted now
     and of the clock; wrenches and accelerations are evaluated, and sensors sampled, only at steps
     where a subscribed or recorded topic needs them. Topics for display, such as markers, go to
@@ -79,6 +67,8 @@ class Outputs:
         Sensors of each vehicle.
     period
         Steps between two calls of ``write``.
+    publishing
+        How messages reach the middleware.
     tap
         The recorder, or None.
     busy_s, recording_s
@@ -87,7 +77,8 @@ class Outputs:
     Raises
     ------
     ConfigError
-        If a rate is above the step rate, or a sensor does not fit the model.
+        If a rate is above the step rate, a sensor does not fit the model, or a publishing thread
+        is asked for that cannot be.
 
     """
 
@@ -99,18 +90,26 @@ class Outputs:
             Topic(state, self._publisher(state), node.resolve_topic_name(state.name))
             for state in self._states.topics
         ]
+        sizes = [len(state.template.buffer) for state in self._states.topics]
+        publishers = [topic.publisher for topic in self.topics if topic.publisher]
+        self.publishing = Publishing(node, publishers, sizes, settings)
+        self._compiled = CompiledTick(simulation, self._states, self.publishing.queue)
+        self._by_python = [0] * len(self.topics)  # messages that the compiled tick did not send
         self.tap: RecorderPort | None = None
         self.busy_s = self.recording_s = 0.0
         self._clock = next(topic for topic in self.topics if topic.state.type == CLOCK)
-        self._active: list[Topic] = []
-        self._for_display = [topic for topic in self.topics if topic.state.for_display]
+        self._active: list[int] = []
+        self._records = False
+        self._for_display = [
+            (place, topic) for place, topic in enumerate(self.topics) if topic.state.for_display
+        ]
         self._show_period = 1.0 / settings['markers.rate']
         self._show_due = 0.0
         self._refreshed_at = -math.inf
         self._begun = False  # whether the log has what never changes
-        for topic in self.topics:
+        for place, topic in enumerate(self.topics):
             if topic.state.once:
-                topic.publish(topic.state.data())
+                self._send(place, topic.state.data())
         for line in self._states.notes:
             node.get_logger().warning(f'robot_description: {line}')
         self._tell_of_missing_types()
@@ -133,10 +132,28 @@ class Outputs:
             )
 
     def destroy(self) -> None:
-        """Remove the publishers from the node."""
-        for topic in self.topics:
-            if topic.publisher is not None:
-                topic.publisher.destroy()
+        """
+        Remove the publishers from the node, when their messages are sent.
+
+        Raises
+        ------
+        FluidSimError
+            If messages were left out at the end.
+
+        """
+        try:
+            self.publishing.close()
+        finally:
+            for topic in self.topics:
+                if topic.publisher is not None:
+                    topic.publisher.destroy()
+
+    def published(self) -> dict[str, int]:
+        """Return how many messages went out so far, by the names of the topics."""
+        return {
+            topic.name: self._compiled.published(place) + self._by_python[place]
+            for place, topic in enumerate(self.topics)
+        }
 
     # ---- the runner's sink -----------------------------------------------------------------
 
@@ -154,17 +171,12 @@ class Outputs:
         if now - self._refreshed_at > REFRESH_PERIOD:
             self._refreshed_at = now
             self.refresh()
-        tick = simulation.tick
-        due = [topic for topic in self._active if tick % topic.period == 0]
-        if not self._begun:
-            self._begun = True
-            due = [t for t in self.topics if t.state.once and t.record >= 0] + due
-        if due:
-            recorded = self._publish(due)
-            if recorded and self.tap is not None:
-                before = time.monotonic()
-                self.tap.tick(recorded)
-                self.recording_s += time.monotonic() - before
+        recorded = self._once() if not self._begun else []
+        recorded += self._tick()
+        if recorded and self.tap is not None:
+            before = time.monotonic()
+            self.tap.tick(recorded)
+            self.recording_s += time.monotonic() - before
         self.busy_s += time.monotonic() - now
 
     def repeat(self, simulation: Simulation) -> None:
@@ -178,8 +190,7 @@ class Outputs:
 
         """
         self.refresh()
-        tick = simulation.tick
-        self._publish([t for t in self._active if tick % t.period == 0])
+        self._tick()
 
     def show(self, simulation: Simulation, now: float, stands: bool) -> None:
         """
@@ -199,14 +210,14 @@ class Outputs:
         if now < self._show_due - 0.5 * self._show_period:
             return
         tick = simulation.tick
-        due = [t for t in self._for_display if stands or tick % t.period == 0]
-        wanted = [t for t in due if t.publisher and t.publisher.subscription_count()]
+        due = [(i, t) for i, t in self._for_display if stands or tick % t.period == 0]
+        wanted = [(i, t) for i, t in due if t.publisher and t.publisher.subscription_count()]
         if due:
             self._show_due = max(self._show_due + self._show_period, now)
         if wanted:
             self._states.take_state()
-        for topic in wanted:
-            topic.publish(self._states.data(topic.state))
+        for place, topic in wanted:
+            self._send(place, self._states.data(topic.state))
 
     def refresh(self) -> None:
         """Look which topics have subscribers; what is recorded is wanted without any."""
@@ -222,11 +233,18 @@ class Outputs:
             topic.subscribed = heard and not (topic.state.for_display or topic.state.once)
             if heard and topic.state.for_display:
                 shown.append(topic)
-        self._active = [
-            t for t in self.topics if t.subscribed or (t.record >= 0 and not t.state.once)
-        ]
+        active = {
+            place: topic for place, topic in enumerate(self.topics)
+            if topic.subscribed or (topic.record >= 0 and not topic.state.once)
+        }  # fmt: skip
+        self._active = list(active)
+        self._records = any(topic.record >= 0 for topic in active.values())
+        self._compiled.choose(
+            self._active,
+            [t.publisher.address if t.subscribed and t.publisher else 0 for t in active.values()],
+        )
         self.period = math.gcd(
-            self._clock.period, *(topic.period for topic in [*self._active, *shown])
+            self._clock.period, *(topic.period for topic in [*active.values(), *shown])
         )
 
     def restart(self) -> None:
@@ -234,16 +252,29 @@ class Outputs:
         self._states.restart()
         self._begun = False
 
-    def _publish(self, topics: list[Topic]) -> list[tuple[int, bytes]]:
-        """Publish the present numbers; return the messages to record."""
-        self._states.take_state()
+    def _tick(self) -> list[tuple[int, bytes]]:
+        """Publish what is due of the present state; return the messages to record."""
+        compiled = self._compiled
+        if not compiled.take():
+            self.publishing.check()
+        if not self._records and self.publishing.queue is not None:
+            return []
         recorded = []
-        for topic in topics:
-            data = self._states.data(topic.state)
-            if not data:
-                continue
-            if topic.subscribed:
-                topic.publish(data)
+        for place in compiled.made():
+            topic = self.topics[place]
+            if self.publishing.queue is None and topic.subscribed:
+                self._send(place, topic.state.template.bytes())
             if topic.record >= 0:
-                recorded.append((topic.record, data))
+                recorded.append((topic.record, topic.state.template.bytes()))
         return recorded
+
+    def _once(self) -> list[tuple[int, bytes]]:
+        """Return the messages that stand at the beginning of a log, once."""
+        self._begun = True
+        return [(t.record, t.state.data()) for t in self.topics if t.state.once and t.record >= 0]
+
+    def _send(self, place: int, data: bytes) -> None:
+        publisher = self.topics[place].publisher
+        if publisher is not None and data:
+            self.publishing.send(publisher, data)
+            self._by_python[place] += 1

@@ -50,7 +50,7 @@ class Session:
     Attributes
     ----------
     diverged, lost
-        Why it stands still, and why its recording has stopped; or empty.
+        Why it stands still, and why its recording has stopped or messages were not sent; or empty.
 
     Raises
     ------
@@ -135,7 +135,11 @@ class Session:
                 self.lost = self.tap.fault
                 self._report('recording', self.lost)
         self.inputs.destroy()
-        self.outputs.destroy()
+        try:
+            self.outputs.destroy()
+        except FluidSimError as error:
+            self.lost = self.lost or str(error)
+            self._report('publishing', str(error))
         self._diagnostics.destroy()
         self.simulation.close()
 
@@ -280,6 +284,8 @@ class Session:
                 self.runner.pacing = self._pacings.chosen()
                 self.runner.pacing.begin(self.simulation)
                 self.inputs.forget()
+            if values.keys() & {'pacing', 'publish.thread'}:
+                self.outputs.publishing.choose()
             if 'enable_wind' in values:
                 self.simulation.enable_wind(values['enable_wind'])
             if self.tap is not None:

@@ -79,6 +79,8 @@ class Engine:
         The copy that the last ``observe(forces=True)`` evaluated; only to be read.
     stepped
         What ``Native.lean`` returned.
+    observe_addresses
+        What ``fsr_observe`` is given: model, data, observed data, base bodies, their count, rows.
 
     """
 
@@ -100,6 +102,7 @@ class Engine:
             *self.addresses, self.observed._address, self._bases.ctypes.data, len(bases),
         )  # fmt: skip
         self._rows_address = self._rows.ctypes.data
+        self.observe_addresses = (*self._observe_addresses, self._rows_address)
 
     def step(self, n: int, tick: int = 0) -> int:
         """

@@ -59,6 +59,8 @@ class Simulation:
         Vehicle name -> names of the fluid terms that can act on it.
     warnings
         The ``WarningLog`` of the run: what was found at load, and by watchdogs.
+    observe_addresses
+        What ``observe`` hands to the library, for ``plugins.tick``.
     observe, largest, energy_balance
         Methods that return the vehicles as rows of numbers, a watch of their largest values, and
         what the integrator does to the energy; see ``Engine``.
@@ -97,6 +99,7 @@ class Simulation:
         )
         self.model, self.data, self.observed = engine.model, engine.data, engine.observed
         self._engine_step, self.observe = engine.step, engine.observe
+        self.observe_addresses = engine.observe_addresses
         self.energy_balance, self.largest = engine.energy_balance, engine.largest
         self.stages = engine.stages
         self.wrench = VehicleWrenches(engine, tuple(compiled.vehicles)).wrench

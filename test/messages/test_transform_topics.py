@@ -53,11 +53,12 @@ def test_the_tree_is_that_of_rep_105_and_each_frame_has_one_parent():
 def test_moving_links_follow_their_joints():
     simulation = Simulation('remus100')
     simulation.set_joints('remus100', [0.2, -0.1])
-    simulation.step(300)
     states, topics = topics_of(simulation)
+    simulation.step(300)
     states.take_state()
     found, stamps = transforms(states.data(topics['/tf']))
     assert stamps == {simulation.time_ns}
+    simulation.observe(forces=True)
     model, data = simulation.model, simulation.observed
     place_w, turn_w = found['remus100/odom', 'remus100/base_link']
     moved = 0.0

@@ -31,6 +31,7 @@ def test_what_is_installed_for_the_tests_works():
     assert code == 0
     for name in (*BASE, 'ROS 2', 'ROS messages', 'ROS_DOMAIN_ID', 'extra charts', 'extra test'):
         assert rows[name]['state'] == 'ok', rows[name]
+    assert rows['publishing']['found'].startswith('compiled')
     assert all(row['remedy'] for row in rows.values() if row['state'] != 'ok')
 
 

@@ -70,9 +70,9 @@ def numbers(messages):
     return np.array(rows)
 
 
-def test_two_runs_are_equal_to_the_bit_with_and_without_extra_subscribers():
+def test_two_runs_are_equal_to_the_bit_with_extra_subscribers_and_a_publishing_thread():
     first = run()
-    second = run(extra=True, copies=2)
+    second = run(extra=True, copies=2, publish__thread='always')
     stamps = [stamp_ns(m) for m in first]
     assert stamps[:100] == list(range(0, 1_000_000_000, 10_000_000))
     both = min(len(first), len(second))

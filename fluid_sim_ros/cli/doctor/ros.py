@@ -20,7 +20,10 @@ MESSAGES = (
 def ros_checks() -> list[Row]:
     """Return what was found of ROS 2, its middleware and its messages."""
     rclpy = _ros()
-    return [rclpy, _messages(), _domain(rclpy.state), _discovery(), _shared_memory()]
+    return [
+        rclpy, _messages(), _publishing(rclpy.state), _domain(rclpy.state), _discovery(),
+        _shared_memory(),
+    ]  # fmt: skip
 
 
 def _ros() -> Row:
@@ -50,6 +53,16 @@ def _messages() -> Row:
         remedy = f'apt-get install ros-jazzy-common-interfaces, or type: {install("ros")}'
         return Row('ROS messages', 'absent', f'missing: {listed(missing)}', remedy)
     return Row('ROS messages', 'ok', f'{len(MESSAGES)} packages')
+
+
+def _publishing(rclpy: State) -> Row:
+    name = 'publishing'
+    if rclpy != 'ok':
+        return Row(name, 'absent', 'not looked at', 'first mend ROS 2')
+    found, fault = probe('from fluid_sim_ros.ros.publishing import usual_way; print(usual_way())')
+    if fault:
+        return Row(name, 'broken', fault, 'reinstall fluid_sim_ros')
+    return Row(name, 'ok', found)
 
 
 def _domain(rclpy: State) -> Row:

@@ -156,6 +156,7 @@ class Diagnostics:
             'step': self._simulation.step_count,
             'real_time_factor': f'{max(self._speed.factor, 0.0):.3f}',
             'paused': runner.paused,
+            'publishing': self._outputs.publishing.way,
         }
         level, message = _OK, 'paused' if runner.paused else 'running'
         if isinstance(pacing, RealTime):

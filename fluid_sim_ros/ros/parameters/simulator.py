@@ -16,6 +16,7 @@ from fluid_sim_ros.messages.transform_topics import ROOTS
 from fluid_sim_ros.ros.parameters import table as parameter_table
 from fluid_sim_ros.ros.parameters.changes import ALLOW_REMOTE_PATHS, judge
 from fluid_sim_ros.ros.parameters.table import Declared
+from fluid_sim_ros.ros.publishing import THREADS
 from fluid_sim_ros.ros.raw import parameter_overrides
 from fluid_sim_ros.schema.settings import FLUID_RUNGS, INTEGRATORS
 
@@ -108,6 +109,13 @@ TABLE: dict[str, Declared] = {
     'odom.twist_covariance': Declared(
         state_topics.DEFAULTS['odom.twist_covariance'],
         '[m^2/s^2, rad^2/s^2] diagonal of the twist covariance', low=0, length=(6,),
+    ),
+    'publish.thread': Declared(
+        'auto',
+        'messages go out in a thread of their own, while the steps go on; auto = with free '
+        'pacing, where two cores are there',
+        choices=THREADS,
+        live=True,
     ),
     'record.path': Declared(
         '',
