@@ -96,7 +96,8 @@ class Publishing:
         if self.queue is None:
             if self._settings['publish.thread'] == 'always':
                 raise ConfigError(
-                    f"parameter 'publish.thread': always needs {self.reason}; set auto"
+                    "parameter 'publish.thread': always is not possible, because there is no "
+                    f'{self.reason}; set auto'
                 )
             return
         if wants_thread(self._settings, cores()):

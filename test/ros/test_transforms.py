@@ -116,7 +116,8 @@ def test_what_cannot_be_published_is_said_with_the_remedy(monkeypatch):
     lines = []
     with Peer() as peer:
         monkeypatch.setattr(peer.node.get_logger(), 'warning', lines.append)
-        made = outputs.Outputs(peer.node, Simulation('sphere'), DEFAULTS)
+        settings = {**DEFAULTS, 'publish.thread': 'auto', 'pacing': 'free'}
+        made = outputs.Outputs(peer.node, Simulation('sphere'), settings)
         made.destroy()
     (line,) = lines
     assert line.startswith('/tf_static, /tf: in logs only') and 'ros-jazzy-tf2-msgs' in line
