@@ -128,7 +128,7 @@ class StateTopic:
         return made_here or self.uneven is not None or not self.always
 
     def ready(self) -> bool:
-        """Make the numbers of the state observed last; return whether there is a message."""
+        """Return whether there is a message of the state observed last; its numbers are made."""
         if self.prepare is not None:
             self.prepare()
         return True
