@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.messages.commands import JOINT_STATE, TWIST, WRENCH
 from fluid_sim_ros.messages.description_topics import description_topic, descriptions
+from fluid_sim_ros.messages.joint_numbers import JointNumbers
 from fluid_sim_ros.messages.marker_topics import MarkerTopic
 from fluid_sim_ros.messages.sensor_topics import sensor_topics
 from fluid_sim_ros.messages.templates import Source, StampBytes, Template
@@ -20,7 +20,6 @@ from fluid_sim_ros.messages.topic import NEWEST, STATE, MadeNumber, Quality, Sta
 from fluid_sim_ros.messages.transform_topics import MAP, transform_topics
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins import native as nat
-from fluid_sim_ros.scene.robot.links import joint_name
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.sensors import SensorSuite
 from fluid_sim_ros.simulation import Simulation
@@ -212,62 +211,14 @@ class StateTopics:
         self.topics += sensor_topics(self._simulation, self.suites[name], name)
 
     def _add_joint_states(self, vehicle: Vehicle) -> None:
-        """
-        Publish the joints below the base, then the thrusters with their force as effort.
-
-        A fluid_sim.thruster also has its rotor's speed [rad/s] as velocity.
-        """
-        model, data = self._simulation.model, self._simulation.observed
-        joints = [j for j in range(model.njnt) if _is_single_joint(model, j, vehicle.body_id)]
-        names = [joint_name(model, joint, vehicle) for joint in joints]
-        names += vehicle.thrusters
-        if not names:
-            return
-        numbers = np.zeros((3, len(names)))
-        qpos_places, dof_places = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
-        count = len(joints)
-        rotor, addresses = np.zeros(len(nat.THRUSTER_VALUES)), (model._address, data._address)
-        thruster_of, into = nat.native().thruster, rotor.ctypes.data
-        rotors = [
-            (count + i, int(actuator))
-            for i, actuator in enumerate(vehicle.thruster_ids)
-            if thruster_of(*addresses, int(actuator), into)
-        ]
-
-        efforts = vehicle.effort_scale
-
-        def prepare() -> None:
-            for place, actuator in rotors:
-                thruster_of(*addresses, actuator, into)
-                numbers[1, place] = rotor[0]
-            numbers[0, :count] = data.qpos[qpos_places]
-            numbers[1, :count] = data.qvel[dof_places]
-            numbers[2, :count] = data.qfrc_actuator[dof_places]
-            numbers[2, count:] = efforts * data.actuator_force[vehicle.thruster_ids]
-
-        made = [
-            MadeNumber(numbers[row, i : i + 1], values[place : place + 1])
-            for row, values, places in (
-                (0, data.qpos, qpos_places), (1, data.qvel, dof_places),
-                (2, data.qfrc_actuator, dof_places),
-            )
-            for i, place in enumerate(places)
-        ]  # fmt: skip
-        made += [
-            MadeNumber(numbers[1, place : place + 1], None, actuator=i) for place, i in rotors
-        ]
-        made += [
-            MadeNumber(
-                numbers[2, count + i : count + i + 1],
-                data.actuator_force[actuator : actuator + 1], float(efforts[i]),
-            )
-            for i, actuator in enumerate(vehicle.thruster_ids)
-        ]  # fmt: skip
-        rows = dict(zip(('position', 'velocity', 'effort'), numbers, strict=True))
-        self._add(
-            f'{vehicle.name}/joint_states', JOINT_STATE, 'joint_states.rate',
-            {'name': names, **rows}, rows, needs_forces=True, prepare=prepare, numbers=made,
-        )  # fmt: skip
+        joints = JointNumbers(self._simulation, vehicle)
+        if joints.names:
+            rows = dict(zip(('position', 'velocity', 'effort'), joints.numbers, strict=True))
+            self._add(
+                f'{vehicle.name}/joint_states', JOINT_STATE, 'joint_states.rate',
+                {'name': joints.names, **rows}, rows, needs_forces=True, prepare=joints.prepare,
+                numbers=joints.made(),
+            )  # fmt: skip
 
     def _add(
         self,
@@ -308,14 +259,3 @@ def _pose(row: Array) -> tuple[Array, tuple[Array, Array]]:
     """Return a row's position and orientation: wxyz inside, xyzw in messages."""
     quat_wxyz = row[nat.QUATERNION]
     return row[nat.POSITION], (quat_wxyz[1:], quat_wxyz[:1])
-
-
-def _is_single_joint(model: mujoco.MjModel, joint: int, base: int) -> bool:
-    """Return whether a joint has one position and lies below a base body."""
-    kind = int(model.jnt_type[joint])  # NumPy's own integers are in no tuple of MuJoCo's names
-    if kind not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
-        return False
-    body = model.jnt_bodyid[joint]
-    while body > base:
-        body = model.body_parentid[body]
-    return bool(body == base)

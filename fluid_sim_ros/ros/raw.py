@@ -27,7 +27,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
-from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.event_handler import (
     PublisherEventCallbacks,
@@ -39,32 +38,16 @@ from rclpy.event_handler import (
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.messages.topic import Quality
+from fluid_sim_ros.ros.endpoints import PolledGroup, profile_of
 from fluid_sim_ros.ros.message_types import message_class
 
 _ASKED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS
 _OFFERED = QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS
-
-
-class _PolledGroup(CallbackGroup):
-    """
-    Keeps the executor away from what a loop takes itself: it would take the messages first.
-
-    Each topic has a group of its own: the common one of a node never forgets what was in it.
-    """
-
-    def can_execute(self, entity: Any) -> bool:
-        """Return False: the executor takes no message."""
-        return False
-
-    beginning_execution = can_execute
-
-    def ending_execution(self, entity: Any) -> None:
-        """Nothing begins."""
 
 
 class Endpoint:
@@ -128,8 +111,8 @@ class PolledSubscription(Endpoint):
         self.type = message
         self._class = message_class(message)
         self._subscription = node.create_subscription(
-            self._class, topic, lambda _: None, _profile(quality, keep_all),
-            callback_group=_PolledGroup(), raw=True,
+            self._class, topic, lambda _: None, profile_of(quality, keep_all),
+            callback_group=PolledGroup(), raw=True,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
@@ -185,7 +168,7 @@ class RawPublisher(Endpoint):
         self._node = node
         self.type = message
         self._publisher = node.create_publisher(
-            message_class(message), topic, _profile(quality), callback_group=_PolledGroup(),
+            message_class(message), topic, profile_of(quality), callback_group=PolledGroup(),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )  # fmt: skip
@@ -230,7 +213,7 @@ class WaitSet:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._guard = node.create_guard_condition(lambda: None, callback_group=_PolledGroup())
+        self._guard = node.create_guard_condition(lambda: None, callback_group=PolledGroup())
         self._size = 0
         self._wait_set: Any = None
 
@@ -317,15 +300,3 @@ def parameter_overrides(node: Node) -> Mapping[str, Parameter]:
     """
     overrides: Mapping[str, Parameter] = node._parameter_overrides
     return overrides
-
-
-def _profile(quality: Quality, keep_all: bool = False) -> QoSProfile:
-    reliability, durability = ReliabilityPolicy, DurabilityPolicy
-    return QoSProfile(
-        history=HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST,
-        depth=quality.depth,
-        reliability=reliability.RELIABLE if quality.reliable else reliability.BEST_EFFORT,
-        durability=(
-            durability.TRANSIENT_LOCAL if quality.transient_local else durability.VOLATILE
-        ),
-    )

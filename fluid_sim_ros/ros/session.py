@@ -50,7 +50,7 @@ class Session:
     Attributes
     ----------
     diverged, lost
-        Why it stands still, and why its recording has stopped or messages were not sent; or empty.
+        Why it stands still; why recording stopped or messages were not sent. Or empty.
 
     Raises
     ------
@@ -103,8 +103,7 @@ class Session:
             self.simulation, self.inputs, [self.outputs, self._diagnostics.watchdogs],
             self._pacings.chosen(), requests, self._housekeeping,
         )  # fmt: skip
-        self._diagnosed_at = 0.0
-        self.requests = requests
+        self._diagnosed_at, self.requests = 0.0, requests
         self._live: LivePort | None = None
         try:
             self._live = start_foxglove(node, self, settings)
@@ -139,7 +138,7 @@ class Session:
             self.outputs.destroy()
         except FluidSimError as error:
             self.lost = self.lost or str(error)
-            self._report('publishing', str(error))
+            self._report('publishing', self.lost)
         self._diagnostics.destroy()
         self.simulation.close()
 
