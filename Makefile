@@ -7,6 +7,8 @@ SHELL := /bin/bash
 BIN := .venv/bin
 # Nothing leaves this host unless the user opens it: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET make demo
 export ROS_AUTOMATIC_DISCOVERY_RANGE ?= LOCALHOST
+# Compiled modules are kept: else each process, and the tests start many, would compile them again.
+unexport PYTHONDONTWRITEBYTECODE
 # The tests run three at a time, since many wait for other processes; more threads inside numpy
 # would only get in each other's way.
 PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q --numprocesses 3 \
