@@ -43,6 +43,14 @@ KINDS = {
     'a lagging motor': {
         'more': '<actuator><general joint="flap" dyntype="filter" dynprm=".1"/></actuator>'
     },
+    'a lagging servo': {
+        'more': '<actuator><general joint="flap" dyntype="filter" dynprm=".1" biastype="affine" '
+        'biasprm="0 -.2 -.01"/></actuator>'
+    },
+    'motors': {
+        'more': '<actuator><motor joint="flap" damping=".1"/><motor site="b" gear="0 0 1"/>'
+        '</actuator>'
+    },
     'dampers off': {'flag': '<flag damper="disable"/>'},
     'passive forces off': {'flag': '<flag spring="disable" damper="disable"/>'},
     'actuation off': {'flag': '<flag actuation="disable"/>'},
@@ -108,6 +116,7 @@ CHANGES = {
     'inertia': lambda model: model.body_inertia.__imul__(1.1),
     'place': lambda model: model.geom_pos.__iadd__(0.02),
     'turn': lambda model: model.geom_quat.__setitem__((0, slice(None)), [0.6, 0.8, 0, 0]),
+    'servo to motor': lambda model: model.actuator_biastype.fill(0),
     'weightless': lambda model: model.body_gravcomp.fill(0.5),
 }  # fmt: skip
 
@@ -115,7 +124,7 @@ CHANGES = {
 @pytest.mark.parametrize('integrator', ('RK4', 'implicitfast'))
 @pytest.mark.parametrize('name', CHANGES)
 def test_changes_of_the_model_between_calls(name, integrator):
-    engine = plank(integrator)
+    engine = plank(integrator, **KINDS['a servo'])
     beside, rng = Beside(engine), np.random.default_rng(2)
     tumble(engine, beside, rng, 2)
     CHANGES[name](engine.model)

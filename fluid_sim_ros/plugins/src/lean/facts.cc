@@ -28,9 +28,16 @@ bool VisitFacts(const mjModel* m, const Visit& visit) {
   if (HasFluid(m)) {  // that MuJoCo's own forces are of
     if (!visit(m->opt.density) || !visit(m->opt.viscosity) || !all(m->body_mass, m->nbody) ||
         !all(m->body_inertia, 3 * m->nbody) || !all(m->body_gravcomp, m->nbody) ||
-        !all(m->geom_fluid, mjNFLUID * m->ngeom) || !all(m->geom_type, m->ngeom) ||
-        !all(m->geom_size, 3 * m->ngeom)) {
+        !all(m->actuator_gaintype, m->nactuator) || !all(m->actuator_biastype, m->nactuator)) {
       return false;
+    }
+    for (int i = 0; i < m->ngeom; ++i) {
+      const mjtNum* fluid = m->geom_fluid + mjNFLUID * i;
+      if (!visit(*fluid)) return false;
+      if (*fluid != 0 &&
+          (!all(fluid, mjNFLUID) || !visit(m->geom_type[i]) || !all(m->geom_size + 3 * i, 3))) {
+        return false;
+      }
     }
   }
   for (int i = 0; i < m->ngeom; ++i) {

@@ -39,6 +39,16 @@ bool IsLone(const mjModel* m, int body) {
          m->tree_dofnum[m->dof_treeid[m->jnt_dofadr[joint]]] == 6;
 }
 
+// No actuator's force goes by a velocity: their slopes are none.
+bool PlainActuators(const mjModel* m) {
+  for (int i = 0; i < m->nactuator; ++i) {
+    if (m->actuator_gaintype[i] != mjGAIN_FIXED || m->actuator_biastype[i] != mjBIAS_NONE) {
+      return false;
+    }
+  }
+  return true;
+}
+
 struct Place {
   const mjtNum *position_w, *rotation_w;
 };
@@ -94,8 +104,10 @@ void StockFluid::Learn(const mjModel* m) {
   served_ = m->opt.density >= 0 && m->opt.viscosity >= 0 &&
             (m->opt.density > 0 || m->opt.viscosity > 0) && AllZero(m->body_gravcomp, m->nbody);
   if (!served_) return;
-  forces_only_ = m->na > 0 || m->nhistory > 0 || !AllZero(m->actuator_damping, m->nactuator) ||
-                 !AllZero(m->actuator_dampingpoly, m->nactuator * mjNPOLY);
+  plain_actuators_ = PlainActuators(m);
+  forces_only_ = !plain_actuators_ &&
+                 (m->na > 0 || m->nhistory > 0 || !AllZero(m->actuator_damping, m->nactuator) ||
+                  !AllZero(m->actuator_dampingpoly, m->nactuator * mjNPOLY));
   for (int body = 1; body < m->nbody; ++body) {
     if (m->body_mass[body] < mjMINVAL) continue;
     if (!HasEllipsoid(m, body)) {
@@ -207,10 +219,10 @@ void StockFluid::AddSlopes(const mjModel* m, mjData* d, const Part& part, bool w
 void StockFluid::Integrate(const mjModel* m, mjModel* head, mjData* d, bool whole) const {
   // as mjd_smooth_vel makes it: zero, actuators, fluid, and in mj_implicitSkip the dampers
   std::fill(d->qDeriv, d->qDeriv + m->nD, 0);
-  mjd_actuator_vel(m, d);
+  if (!plain_actuators_) mjd_actuator_vel(m, d);
   for (const Part& part : parts_) AddSlopes(m, d, part, whole);
-  // nothing to clear and no actuators any more
-  head->nD = head->nactuator = 0;
+  head->nD = 0;  // nothing to clear
+  if (!plain_actuators_) head->nactuator = 0;
   mj_implicitSkip(head, d, 0);
   head->nD = m->nD;
   head->nactuator = m->nactuator;

@@ -28,8 +28,7 @@ class StockFluid {
   // Likewise as the options are now. With it the callback is there.
   bool Ready(const mjModel* m) const;
 
-  // Whether the slopes can be: with implicitfast, while nothing but the state and its rate is
-  // integrated.
+  // Whether the slopes can be: with implicitfast, where actuators have none, or no state either.
   bool ReadySlopes(const mjModel* m) const;
 
   // Let the head look so that MuJoCo's stages have nothing to do.
@@ -53,7 +52,7 @@ class StockFluid {
   void AddPart(const mjModel* m, int body, int geom, std::variant<FluidEllipsoid, FluidBox> shape);
   void AddSlopes(const mjModel* m, mjData* d, const Part& part, bool whole) const;
 
-  bool served_ = false, forces_only_ = false;
+  bool served_ = false, forces_only_ = false, plain_actuators_ = false;
   std::vector<Part> parts_;
   std::vector<int> chain_;   // degrees of freedom, rising
   std::vector<int> places_;  // of each chain's later columns in its rows of D
