@@ -71,6 +71,8 @@ class Allocator:
         self._rows = [tuple(row) for row in inverse.tolist()]
         self._groups = [_rows_of(inverse, group) for group in columns]
         self._limits = [(low, high) for low, high in low_high.tolist()]
+        # within these every thrust is within its own limits
+        self._low, self._high = float(low_high[:, 0].max()), float(low_high[:, 1].min())
 
     @staticmethod
     def _columns(group: Sequence[str]) -> list[int]:
@@ -98,8 +100,13 @@ class Allocator:
         Thrusts [N], one per thruster.
 
         """
-        thrusts = _times(self._rows, wrench_b)
+        x, y, z, p, q, r = wrench_b
+        thrusts = [
+            a * x + b * y + c * z + d * p + e * q + f * r for a, b, c, d, e, f in self._rows
+        ]
         self.scale = 1.0
+        if self._low <= min(thrusts) and max(thrusts) <= self._high:
+            return thrusts
         for thrust, (low, high) in zip(thrusts, self._limits, strict=True):
             if not low <= thrust <= high:
                 return self._by_groups(wrench_b)

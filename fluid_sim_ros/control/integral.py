@@ -49,7 +49,17 @@ class Integral:
 
         """
         gain, bound = self._rate * dt, self._bound
-        # on the way of every answer: comparisons take half the time of min and max
+        # on the way of every answer: comparisons take half the time of min and max, and three
+        # axes written out two thirds of that of a loop
+        if len(self.value) == 3:
+            (x, y, z), (ex, ey, ez) = self.value, self._pending
+            x, y, z = x + gain * ex, y + gain * ey, z + gain * ez
+            self.value = [
+                -bound if x < -bound else (bound if x > bound else x),
+                -bound if y < -bound else (bound if y > bound else y),
+                -bound if z < -bound else (bound if z > bound else z),
+            ]
+            return
         self.value = [
             -bound if (v := value + gain * error) < -bound else (bound if v > bound else v)
             for value, error in zip(self.value, self._pending, strict=True)

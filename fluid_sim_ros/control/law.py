@@ -31,9 +31,10 @@ class ControlLaw:
     def _advance(self, time: float) -> float:
         """Take the integrals on to the stamp of a state [s]; return the time since the last."""
         dt = self._clock.advance(time)
-        for integral in self._integrals:
-            if self._clock.restarted:
+        if self._clock.restarted:
+            for integral in self._integrals:
                 integral.restart()
+        for integral in self._integrals:
             integral.advance(dt)
         return dt
 

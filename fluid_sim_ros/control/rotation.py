@@ -111,17 +111,19 @@ def error(desired: Rotation, actual: Rotation) -> Vector3:
         [rad], body axes of the actual attitude, shape (3,).
 
     """
-    a, b = actual, desired
+    # names, as places in a tuple take longer to look up than the arithmetic
+    a00, a01, a02, a10, a11, a12, a20, a21, a22 = actual
+    b00, b01, b02, b10, b11, b12, b20, b21, b22 = desired
     # E = R^T R_d; of its antisymmetric part sin(angle) axis, of its trace 1 + 2 cos(angle)
-    e21 = a[2] * b[1] + a[5] * b[4] + a[8] * b[7]
-    e12 = a[1] * b[2] + a[4] * b[5] + a[7] * b[8]
-    e02 = a[0] * b[2] + a[3] * b[5] + a[6] * b[8]
-    e20 = a[2] * b[0] + a[5] * b[3] + a[8] * b[6]
-    e10 = a[1] * b[0] + a[4] * b[3] + a[7] * b[6]
-    e01 = a[0] * b[1] + a[3] * b[4] + a[6] * b[7]
-    e00 = a[0] * b[0] + a[3] * b[3] + a[6] * b[6]
-    e11 = a[1] * b[1] + a[4] * b[4] + a[7] * b[7]
-    e22 = a[2] * b[2] + a[5] * b[5] + a[8] * b[8]
+    e21 = a02 * b01 + a12 * b11 + a22 * b21
+    e12 = a01 * b02 + a11 * b12 + a21 * b22
+    e02 = a00 * b02 + a10 * b12 + a20 * b22
+    e20 = a02 * b00 + a12 * b10 + a22 * b20
+    e10 = a01 * b00 + a11 * b10 + a21 * b20
+    e01 = a00 * b01 + a10 * b11 + a20 * b21
+    e00 = a00 * b00 + a10 * b10 + a20 * b20
+    e11 = a01 * b01 + a11 * b11 + a21 * b21
+    e22 = a02 * b02 + a12 * b12 + a22 * b22
     x, y, z = 0.5 * (e21 - e12), 0.5 * (e02 - e20), 0.5 * (e10 - e01)
     sine = math.sqrt(x * x + y * y + z * z)
     cosine = 0.5 * (e00 + e11 + e22 - 1.0)
@@ -153,11 +155,11 @@ def to_body(rotation_wb: Rotation, vector_w: Sequence[float]) -> Vector3:
         The same vector in body axes.
 
     """
-    r, (x, y, z) = rotation_wb, vector_w
+    (r00, r01, r02, r10, r11, r12, r20, r21, r22), (x, y, z) = rotation_wb, vector_w
     return (
-        r[0] * x + r[3] * y + r[6] * z,
-        r[1] * x + r[4] * y + r[7] * z,
-        r[2] * x + r[5] * y + r[8] * z,
+        r00 * x + r10 * y + r20 * z,
+        r01 * x + r11 * y + r21 * z,
+        r02 * x + r12 * y + r22 * z,
     )
 
 
@@ -178,11 +180,11 @@ def to_world(rotation_wb: Rotation, vector_b: Sequence[float]) -> Vector3:
         The same vector in world axes.
 
     """
-    r, (x, y, z) = rotation_wb, vector_b
+    (r00, r01, r02, r10, r11, r12, r20, r21, r22), (x, y, z) = rotation_wb, vector_b
     return (
-        r[0] * x + r[1] * y + r[2] * z,
-        r[3] * x + r[4] * y + r[5] * z,
-        r[6] * x + r[7] * y + r[8] * z,
+        r00 * x + r01 * y + r02 * z,
+        r10 * x + r11 * y + r12 * z,
+        r20 * x + r21 * y + r22 * z,
     )
 
 

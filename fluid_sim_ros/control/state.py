@@ -33,7 +33,6 @@ class State(NamedTuple):
 
     def is_sound(self) -> bool:
         """Return whether every number is finite and the quaternion is near a unit one."""
-        time, position, quat, velocity, omega, medium = self
-        w, x, y, z = quat
-        finite = math.isfinite(time + sum(position) + sum(velocity) + sum(omega) + sum(medium))
+        time, (a, b, c), (w, x, y, z), (d, e, f), (g, h, i), (j, k, m) = self
+        finite = math.isfinite(time + a + b + c + d + e + f + g + h + i + j + k + m)
         return finite and 0.5 < w * w + x * x + y * y + z * z < 2.0

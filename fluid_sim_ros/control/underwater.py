@@ -125,6 +125,11 @@ class UnderwaterController(ControlLaw):
         self._has_torque = [axis in reached for axis in AXES[3:]]
         self._integral = Integral(gains.integral, gains.max_integral)
         self._angular_integral = Integral(gains.attitude_integral, gains.max_angular_integral)
+        moved = 1.0 + gains.added_mass
+        self._constants = (
+            gains.velocity, moved * plant.mass, plant.weight,
+            gains.rate, *(moved * inertia for inertia in plant.inertia),
+        )  # fmt: skip
         self._heading, self._level = 0.0, rot.from_yaw(0.0)
         super().__init__(self._integral, self._angular_integral)
 
@@ -145,18 +150,18 @@ class UnderwaterController(ControlLaw):
             Thrusts [N], one per thruster.
 
         """
-        self._advance(state.time)
-        r_wb = rot.from_quaternion(state.quat_wb_wxyz)
-        velocity_w = rot.to_world(r_wb, state.velocity_b)
+        time, position_w, quat_wb_wxyz, velocity_b, omega_b, _ = state
+        self._advance(time)
+        r_wb = rot.from_quaternion(quat_wb_wxyz)
+        velocity_w = rot.to_world(r_wb, velocity_b)
         if self.lacks:
-            target = self._within_reach(state.position_w, target)
-        error_w = self._speed_error(state.position_w, velocity_w, target)
-        error_b = self._rate_error(r_wb, state.omega_b, target.heading)
+            target = self._within_reach(position_w, target)
+        error_w = self._speed_error(position_w, velocity_w, target)
+        error_b = self._rate_error(r_wb, omega_b, target.heading)
         if self.lacks:
             error_w = rot.to_world(r_wb, _kept(rot.to_body(r_wb, error_w), self._has_force))
             error_b = _kept(error_b, self._has_torque)
-        wrench_b = (*self._force(r_wb, error_w), *self._torque(error_b))
-        thrusts = self.allocator.allocate(wrench_b)
+        thrusts = self.allocator.allocate(self._wrench(r_wb, error_w, error_b))
         limited = self.allocator.scale < 1.0
         self._integral.keep(*error_w, limited=limited)
         self._angular_integral.keep(*error_b, limited=limited)
@@ -190,17 +195,24 @@ class UnderwaterController(ControlLaw):
         vz = within(gains.position * (-depth - position_w[2]), gains.max_climb)
         return (vx - velocity_w[0], vy - velocity_w[1], vz - velocity_w[2])
 
-    def _force(self, r_wb: rot.Rotation, error_w: rot.Vector3) -> rot.Vector3:
-        """Return the force [N], body axes."""
-        gain, (ix, iy, iz) = self.gains.velocity, self._integral.value
-        moved = (1.0 + self.gains.added_mass) * self.plant.mass
-        return rot.to_body(
-            r_wb,
-            (
-                moved * (gain * error_w[0] + ix),
-                moved * (gain * error_w[1] + iy),
-                moved * (gain * error_w[2] + iz) + self.plant.weight,
-            ),
+    def _wrench(
+        self, r_wb: rot.Rotation, error_w: rot.Vector3, error_b: rot.Vector3
+    ) -> tuple[float, ...]:
+        """Return force [N] and torque [N m], body axes, written out: it is in every answer."""
+        gain, moved, weight, turn, jx, jy, jz = self._constants
+        (x, y, z), (ix, iy, iz) = error_w, self._integral.value
+        (p, q, r), (ip, iq, ir) = error_b, self._angular_integral.value
+        fx = moved * (gain * x + ix)
+        fy = moved * (gain * y + iy)
+        fz = moved * (gain * z + iz) + weight
+        r00, r01, r02, r10, r11, r12, r20, r21, r22 = r_wb
+        return (
+            r00 * fx + r10 * fy + r20 * fz,
+            r01 * fx + r11 * fy + r21 * fz,
+            r02 * fx + r12 * fy + r22 * fz,
+            jx * (turn * p + ip),
+            jy * (turn * q + iq),
+            jz * (turn * r + ir),
         )
 
     def _rate_error(
@@ -211,21 +223,12 @@ class UnderwaterController(ControlLaw):
         if heading != self._heading:  # most states are answered with the same
             self._heading, self._level = heading, rot.from_yaw(heading)
         ex, ey, ez = rot.error(self._level, r_wb)
+        ex, ey, ez = gain * ex, gain * ey, gain * ez
+        p, q, r = omega_b
         return (
-            within(gain * ex, most) - omega_b[0],
-            within(gain * ey, most) - omega_b[1],
-            within(gain * ez, most) - omega_b[2],
-        )
-
-    def _torque(self, error_b: rot.Vector3) -> rot.Vector3:
-        """Return the torque [N m], body axes."""
-        gain, (ix, iy, iz) = self.gains.rate, self._angular_integral.value
-        moved = 1.0 + self.gains.added_mass
-        jx, jy, jz = self.plant.inertia
-        return (
-            moved * jx * (gain * error_b[0] + ix),
-            moved * jy * (gain * error_b[1] + iy),
-            moved * jz * (gain * error_b[2] + iz),
+            (-most if ex < -most else (most if ex > most else ex)) - p,
+            (-most if ey < -most else (most if ey > most else ey)) - q,
+            (-most if ez < -most else (most if ez > most else ez)) - r,
         )
 
 
