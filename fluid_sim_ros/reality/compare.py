@@ -14,6 +14,7 @@ from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.consistency import check_flight
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
+from fluid_sim_ros.flights.sparse import sparse_lines
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
@@ -135,7 +136,9 @@ def compare(
         },
         'residuals': off,
         'words': words(off) + _against(horizons, found),
-        'notes': [*odd, *driven.notes, *flight.notes, *flight.raw.faults],
+        'notes': [
+            *odd, *driven.notes, *sparse_lines(flight), *flight.notes, *flight.raw.faults,
+        ],
         'clocks': {
             check.what: round(check.offset, 5)
             for check in check_flight(flight) if check.offset is not None

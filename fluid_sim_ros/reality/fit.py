@@ -7,7 +7,8 @@ Own Gauss-Newton steps with damping, not ``mujoco.sysid`` or SciPy's ``least_squ
 see the states of hundreds of windows as ordinary unknowns, and neither gives the covariance of
 clustered residuals. The errors of a real model are no white noise: within a window they go
 together. So the covariance is the sandwich by windows (Liang and Zeger 1986), which holds for
-white noise too.
+white noise too, each window's residuals as they would be without it in the fit (jackknife by
+clusters, CR3 of Bell and McCaffrey 2002): a fit bends towards its few windows.
 """
 
 import os
@@ -17,10 +18,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.special import stdtrit
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.flight import STATE, Flight
+from fluid_sim_ros.flights.sparse import sparse_lines
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
@@ -42,6 +45,8 @@ from fluid_sim_ros.reality.windows import cut
 _LEAST_SIGMA = (1e-4, 1e-4, 1e-3, 1e-3)
 #: Two parameters are not told apart beyond this correlation; one is not felt beyond this error.
 _ALIKE, _UNFELT = 0.95, 1.0
+#: With so many windows standard errors are those of a normal distribution.
+_MANY = 30
 
 
 @dataclass(frozen=True)
@@ -179,7 +184,7 @@ def cut_shots(flights: Sequence[Flight], task: Task) -> tuple[list[Shots], list[
         windows, left = airborne(windows, flyer)
         windows = with_parts(windows, driven)
         lines += [f'{flight.name}: {n} windows {why}' for why, n in left.items()]
-        lines += [f'{flight.name}: {note}' for note in driven.notes]
+        lines += [f'{flight.name}: {note}' for note in (*driven.notes, *sparse_lines(flight))]
         step = max(1, round(task.sample / flyer.timestep)) * flyer.timestep
         shots.append(Shots.of(windows, step, spare))
     return shots, lines
@@ -205,11 +210,10 @@ def _result(
         lines: list[str],
     ) -> Fitted:  # fmt: skip
     linear = solver.linear(values, True, pool)
-    curved, score, windows = sandwich(linear, solver.scales)
     walked = solver.walked()
-    curved, score = curved + walked, score + walked
+    curved, score, windows = sandwich(linear, solver.scales, walked)
     inverse = np.linalg.pinv(curved, rcond=1e-12, hermitian=True)
-    covariance = inverse @ score @ inverse * windows / max(1, windows - 1)
+    covariance = inverse @ score @ inverse
     # what the flights do not touch has no curvature: no error that means anything
     touched = np.diag(curved) > 1e-9 * np.diag(curved).max()
     errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
@@ -226,9 +230,22 @@ def _result(
     lines = [*lines, *told(solver.chosen, values)]
     lines += told_of_knots(solver.chosen, values, errors * solver.scales)
     lines += _judged(solver.chosen, values, errors * solver.scales, correlations)
+    lines += _few(windows)
     finite = np.where(np.isfinite(errors), errors * solver.scales, 0.0)
     return Fitted(tuple(solver.chosen), values, finite, np.nan_to_num(correlations), rms,
                       solver.sigmas, windows, count, tuple(lines))  # fmt: skip
+
+
+def _few(windows: int) -> list[str]:
+    """Return what few windows say of the errors themselves: those of Student's t."""
+    if windows >= _MANY or windows < 3:
+        return []
+    within = float(stdtrit(windows - 1, 0.975))
+    scatter = 100.0 / np.sqrt(2.0 * (windows - 1))
+    return [
+        f'{windows} windows: standard errors are themselves known to {scatter:.0f} %; 95 % of '
+        f'fits lie within {within:.2f} of them, not 1.96: fly longer, or shorten --window'
+    ]
 
 
 def _judged(

@@ -12,7 +12,14 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.reality.driven import comparable_scene, without_air
 from fluid_sim_ros.reality.fit import fit
-from fluid_sim_ros.reality.fitting.disturbance import Knot, walks, with_flow, with_knots
+from fluid_sim_ros.reality.fitting import solver
+from fluid_sim_ros.reality.fitting.disturbance import (
+    Knot,
+    touched_by,
+    walks,
+    with_flow,
+    with_knots,
+)
 from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.parameters import find_parameters
 from fluid_sim_ros.schema.settings import RunSettings
@@ -47,6 +54,25 @@ def test_knots_follow_a_wind_within_three_errors(flight):
     assert (found.errors[:-1] < 0.2).all()
     assert abs(found.values[-1] - DRAG) < 3 * found.errors[-1]
     assert any('slow_wind.x.1 (windy.csv): 5 knots' in line for line in found.lines)
+
+
+def test_a_knot_flies_only_windows_that_it_touches_with_the_same_result(flight, monkeypatch):
+    task = Task('x500', ('slow_wind.x', 'rotor_drag'), knots=1.0, walk=0.5)
+    flown = []
+
+    def looked(chosen, place, flight, windows):
+        found = touched_by(chosen, place, flight, windows)
+        flown.append(1.0 if found is None else found.mean())
+        return found
+
+    monkeypatch.setattr(solver, 'touched_by', looked)
+    few = fit([flight], task)
+    assert min(flown) < 0.5
+    monkeypatch.setattr(solver, 'touched_by', lambda *_: None)
+    every = fit([flight], task)
+
+    assert few.values.tolist() == every.values.tolist()
+    assert few.errors.tolist() == every.errors.tolist()
 
 
 @pytest.mark.full

@@ -14,6 +14,8 @@ from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.plugins import load_plugins
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import fit
+from fluid_sim_ros.reality.fitting.normal import sandwich
+from fluid_sim_ros.reality.fitting.shooting import Linear
 from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.parameters import all_parameters, find_parameters
 from test.support.flown import write_x500
@@ -53,6 +55,37 @@ def test_with_noise_the_truth_is_within_three_errors(noisy):
     # the noise is found too, by itself
     assert found.sigmas == pytest.approx([0.002, 0.002, 0.01, 0.005], rel=0.2)
     assert found.rms[1] == pytest.approx(1.0, abs=0.1)
+
+
+def test_few_windows_are_said_with_what_their_errors_mean(noisy):
+    found = fit([read_flight(noisy)], Task('x500', ('rotor_drag',)))
+
+    assert found.windows == 9
+    assert any(
+        line.startswith(
+            '9 windows: standard errors are themselves known to 25 %; 95 % of fits lie'
+        )
+        and 'within 2.31 of them' in line
+        for line in found.lines
+    )
+
+
+def test_errors_are_those_of_a_jackknife_by_windows():
+    rng = np.random.default_rng(1)
+    jp = rng.normal(size=(6, 5, 2))
+    residual = rng.normal(size=(6, 5))
+    whole = np.linalg.lstsq(jp.reshape(-1, 2), residual.ravel(), rcond=None)[0]
+    linear = Linear(residual - jp @ whole, jp, np.zeros((6, 5, 1)))  # at the least squares
+    curved, scatter, number = sandwich([linear], np.ones(2), np.zeros((2, 2)))
+    covariance = np.linalg.inv(curved) @ scatter @ np.linalg.inv(curved)
+    left = []
+    for i in range(6):
+        rest = np.arange(6) != i
+        left.append(np.linalg.lstsq(
+            jp[rest].reshape(-1, 2), residual[rest].ravel(), rcond=None
+        )[0] - whole)  # fmt: skip
+    assert number == 6
+    assert covariance == pytest.approx(5 / 6 * np.array(left).T @ np.array(left), rel=1e-6)
 
 
 def test_mass_and_thrust_are_not_told_apart(log):

@@ -49,8 +49,7 @@ def foreseen(flight: Flight, model: str, names: Sequence[str]) -> dict[str, Any]
     chosen = solver.chosen
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         linear = solver.linear(np.array([p.value for p in chosen]), True, pool)
-    curved, _, _ = sandwich(linear, solver.scales)
-    curved += solver.walked()
+    curved, _, _ = sandwich(linear, solver.scales, solver.walked())
     inverse = np.linalg.pinv(curved, rcond=1e-14, hermitian=True)
     touched = np.diag(curved) > 1e-12 * np.diag(curved).max()
     errors = np.where(touched, np.sqrt(np.maximum(np.diag(inverse), 0)) * solver.scales, np.inf)

@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
-from fluid_sim_ros.flights.flight import Flight
+from fluid_sim_ros.flights.flight import Flags, Flight
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.config import MEDIUM
 from fluid_sim_ros.reality.driven import Edit
@@ -29,6 +29,8 @@ PREFIX = 'slow_'
 _AXES = 'xy'
 #: Rows of a series from knot to knot: the medium joins rows by cubics; so many are straight.
 _ROWS = 8
+#: The cubics look two rows ahead: a knot is felt so far beyond the next, in their distance.
+_SPARE = 2.0 / _ROWS
 #: Bound and typical size [m/s], those of a constant wind or current.
 _MOST, _TYPICAL = 50.0, 0.5
 #: What 1 m/s must move, over its noise: below, thousands of samples do not tell 1 m/s from none.
@@ -137,6 +139,39 @@ def walks(chosen: Sequence[Parameter], strength: float) -> Array:
             row[i] = -row[i + 1]
             rows.append(row)
     return np.array(rows).reshape(len(rows), len(chosen))
+
+
+def touched_by(
+    chosen: Sequence[Parameter], place: int, flight: Flight, windows: Windows
+) -> Flags | None:
+    """
+    Return which windows of a flight a parameter can touch, shape (w,); None: all.
+
+    Parameters
+    ----------
+    chosen, place
+        The parameters, with knots, and which of them.
+    flight, windows
+        The flight, and its windows.
+
+    """
+    knot = chosen[place]
+    if not isinstance(knot, Knot):
+        return None
+    if knot.flight is not flight:
+        return np.zeros(len(windows.begins), dtype=np.bool_)
+    begin, end = -np.inf, np.inf  # beyond the last knots the wind holds
+    for other in (p for p in chosen if isinstance(p, Knot)):
+        if other.of != knot.of or other.flight is not flight:
+            continue
+        spare = _SPARE * abs(knot.time - other.time)
+        if other.time < knot.time:
+            begin = max(begin, other.time - spare)
+        elif other.time > knot.time:
+            end = min(end, other.time + spare)
+    last = windows.begins + windows.length
+    touched: Flags = (last >= begin) & (windows.begins <= end)
+    return touched
 
 
 def with_flow(edit: Edit, flight: Flight, chosen: Sequence[Parameter], values: Array) -> Edit:

@@ -7,6 +7,11 @@ import numpy as np
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.fitting.shooting import Linear
 
+#: Curvature below this share of the largest is none: the flights do not touch it.
+_TOUCHED = 1e-12
+#: Least share of the curvature that other windows are taken to have: a knot may have one window.
+_LEAST_REST = 0.25
+
 
 def _reduced(each: Linear, scales: Array) -> tuple[Array, Array, Array, Array]:
     """Return derivatives with the states taken out, by window, and what the states need."""
@@ -48,9 +53,15 @@ def step_of(
     return step * scales, moves
 
 
-def sandwich(linear: list[Linear], scales: Array) -> tuple[Array, Array, int]:
+def sandwich(
+    linear: list[Linear], scales: Array, walked: Array
+) -> tuple[Array, Array, int]:  # fmt: skip
     """
     Return curvature and the scatter of the windows' scores, in scales; and their number.
+
+    The fit bends towards each window, whose residuals are too small by that. Without the window
+    its score s would be (I - G A^-1)^-1 s, with its own part G of the curvature A (the jackknife
+    by clusters, CR3: Bell and McCaffrey 2002).
 
     Parameters
     ----------
@@ -58,14 +69,24 @@ def sandwich(linear: list[Linear], scales: Array) -> tuple[Array, Array, int]:
         At the least squares.
     scales
         Of the parameters, shape (p,).
+    walked
+        Curvature, and scatter, that the steps of knots add, in scales, shape (p, p).
 
     """
-    count = len(scales)
-    curved, score, windows = np.zeros((count, count)), np.zeros((count, count)), 0
+    parts, scores = [], []
     for each in linear:
         jp, r, _, _ = _reduced(each, scales)
-        curved += np.einsum('wnp,wnq->pq', jp, jp)
-        each_score = np.einsum('wnp,wn->wp', jp, r)
-        score += each_score.T @ each_score
-        windows += len(r)
-    return curved, score, windows
+        parts.append(np.einsum('wnp,wnq->wpq', jp, jp))
+        scores.append(np.einsum('wnp,wn->wp', jp, r))
+    own, score = np.concatenate(parts), np.concatenate(scores)
+    curved: Array = own.sum(axis=0) + walked
+    values, vectors = np.linalg.eigh(curved)
+    felt = values > _TOUCHED * max(values.max(), 0.0)
+    root = vectors[:, felt] / np.sqrt(values[felt])  # root' A root = 1 where anything is felt
+    back = vectors[:, felt] * np.sqrt(values[felt])
+    share, turn = np.linalg.eigh(np.einsum('pi,wpq,qj->wij', root, own, root))
+    alone = np.einsum('wij,wi->wj', turn, score @ root) / np.maximum(1.0 - share, _LEAST_REST)
+    without = np.einsum('wij,wj->wi', turn, alone) @ back.T
+    number = len(own)
+    scatter: Array = without.T @ without * (number - 1) / max(1, number) + walked
+    return curved, scatter, number

@@ -12,10 +12,11 @@ parameters are left.
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fluid_sim_ros.flights.flight import Flags
 from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import Driven
@@ -83,11 +84,14 @@ class Trial:
         The model, with its parameters.
     late
         How late position, attitude, velocity and rates are [s], shape (4,); None: not at all.
+    touched
+        Which windows differ from those of the other trial, shape (w,); None: all.
 
     """
 
     driven: Driven
     late: Array | None = None
+    touched: Flags | None = None
 
 
 @dataclass
@@ -134,6 +138,20 @@ class Shots:
         wanted = windows.measured(after)
         start = windows.measured(0.0) if spare else wanted[:, 0].copy()
         return cls(windows, after, wanted, start)
+
+    def part(self, chosen: Flags) -> 'Shots':
+        """
+        Return some of the windows.
+
+        Parameters
+        ----------
+        chosen
+            Which, shape (w,).
+
+        """
+        parts = None if self.windows.parts is None else self.windows.parts[chosen]
+        windows = replace(self.windows, begins=self.windows.begins[chosen], parts=parts)
+        return Shots(windows, self.after, self.wanted[chosen], self.start[chosen])
 
 
 @dataclass(frozen=True)
@@ -213,7 +231,7 @@ class Shooter:
         flyer = Flyer(trial.driven, 1)
         spun = self._spin(flyer)
         base = self._fly(flyer, trial.late, start, spun)
-        later = [pool.submit(self.residual, other) for other in others]
+        later = [pool.submit(self._moved, other, base) for other in others]
         if not self.free:
             self._by_state = np.zeros((*base.shape, SIZE))
         elif fresh or self._by_state is None:
@@ -230,6 +248,17 @@ class Shooter:
         columns = [(f.result() - base) / step for f, step in zip(later, steps, strict=True)]
         by_parameter = np.stack(columns, axis=2) if columns else np.zeros((*base.shape, 0))
         return Linear(base, by_parameter, self._by_state)
+
+    def _moved(self, trial: Trial, base: Array) -> Array:
+        """Return residuals of a trial, flown only where it differs from the base."""
+        if trial.touched is None:
+            return self.residual(trial)
+        found = base.copy()
+        if trial.touched.any():
+            part = Shooter(self.shots.part(trial.touched), self.weights, self.free)
+            part.trust = self.trust[trial.touched]
+            found[trial.touched] = part.residual(trial)
+        return found
 
     def _spin(self, flyer: Flyer) -> Array | None:
         return first_speeds(flyer, self.shots.windows, self.shots.start)

@@ -4,7 +4,7 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from fluid_sim_ros.reality.fitting.delays import delays_of
 from fluid_sim_ros.reality.fitting.disturbance import (
     Knot,
     require_felt,
+    touched_by,
     walks,
     with_flow,
     with_knots,
@@ -144,12 +145,16 @@ class Solver:
         steps = np.where(values + steps > self.high, -steps, steps)
         found = []
         for flight, shooter in zip(self.flights, self.shooters, strict=True):
+            trial = self._trial(flight, values)
             others = []
             for i, step in enumerate(steps):
+                near = touched_by(self.chosen, i, flight, shooter.shots.windows)
+                if near is not None and not near.any():  # of another flight: nothing is flown
+                    others.append(replace(trial, touched=near))
+                    continue
                 shifted = values.copy()
                 shifted[i] += step
-                others.append(self._trial(flight, shifted))
-            trial = self._trial(flight, values)
+                others.append(replace(self._trial(flight, shifted), touched=near))
             found.append(shooter.linear(trial, others, steps.tolist(), fresh, pool))
         return found
 
