@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.renderer import by_egl
+from fluid_sim_ros.plugins.renderer import bound_buffers, by_egl
 from fluid_sim_ros.plugins.translucent import translucent_geoms
 
 #: Nothing nearer is drawn [m], nor farther, in sizes of the model and at least so far [m].
 _NEAR, _FAR, _LEAST_FAR = 0.01, 50.0, 1000.0
-#: Samples per pixel of a colour picture, and the largest side of the maps of shadows [pixels].
+#: Most samples per pixel of a colour picture, and the largest side of maps of shadows [pixels].
 _SAMPLES, _SHADOWS = 4, 1024
 #: Geoms of a picture that are not the model's: the triangles of waves.
 _MORE_GEOMS = 6000
@@ -74,10 +74,9 @@ class Offscreen:
         self._model = model = copy.copy(model)
         self._pinhole, self._distances = pinhole, distances
         width, height = pinhole.width, pinhole.height
-        model.vis.global_.offwidth, model.vis.global_.offheight = width, height
         # a mean of several samples of a distance would be a distance of nothing
-        model.vis.quality.offsamples = 0 if distances else _SAMPLES
-        model.vis.quality.shadowsize = min(model.vis.quality.shadowsize, _SHADOWS)
+        samples = 0 if distances else _SAMPLES
+        bound_buffers(model, width, height, shadows=_SHADOWS, samples=samples)
         with by_egl(f'no picture of {width} x {height} pixels can be drawn here: '):
             from mujoco.egl import GLContext
 

@@ -50,6 +50,30 @@ def new_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rende
             raise MachineError(begin + f'MuJoCo was told to draw nothing; {_REMEDY}') from None
 
 
+def bound_buffers(
+    model: mujoco.MjModel, width: int, height: int, *, shadows: int, samples: int
+) -> None:
+    """
+    Have OpenGL keep no larger pictures of a model than are wanted, whatever the model asks for.
+
+    Parameters
+    ----------
+    model
+        What is drawn; changed.
+    width, height
+        Of the pictures [pixels].
+    shadows
+        Most pixels of a side of the shadow map.
+    samples
+        Most samples of a pixel; 0: none beside the one in its middle.
+
+    """
+    quality, size = model.vis.quality, model.vis.global_
+    size.offwidth, size.offheight = width, height
+    quality.shadowsize = min(quality.shadowsize, shadows)
+    quality.offsamples = min(quality.offsamples, samples)
+
+
 @contextmanager
 def only_once(begin: str, remedy: str) -> Iterator[None]:
     """

@@ -16,7 +16,7 @@ from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.output.term_colors import rgb, term_color
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.plugins.drawn_arrow import add_arrow, extent
-from fluid_sim_ros.plugins.renderer import new_renderer
+from fluid_sim_ros.plugins.renderer import bound_buffers, new_renderer
 from fluid_sim_ros.recording.damage import LogError, reading
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.pictures.caption import captioned, pixels_per_metre
@@ -138,14 +138,6 @@ def _drawn(
             stage.close()
 
 
-def _bound_buffers(model: mujoco.MjModel, options: FilmOptions) -> None:
-    """Have OpenGL keep no larger pictures than the film needs, whatever a log's model asks for."""
-    quality, size = model.vis.quality, model.vis.global_
-    size.offwidth, size.offheight = options.width, options.height
-    quality.shadowsize = min(quality.shadowsize, _SHADOWS)
-    quality.offsamples = min(quality.offsamples, _SAMPLES)
-
-
 class _Stage:
     """The model, posed as the log has it."""
 
@@ -155,14 +147,15 @@ class _Stage:
         self._simulation = self._poses.simulation
         self._data = self._simulation.data
         self._model = model = self._simulation.model
-        _bound_buffers(model, options)
+        width, height = options.width, options.height
+        bound_buffers(model, width, height, shadows=_SHADOWS, samples=_SAMPLES)
         self._tracks = self._poses.tracks
         name = self._poses.check_vehicle(options.vehicle, log.path)
         self._name, self._followed = name, self._simulation.vehicles[name].body_id
         self._extent = extent(model, self._followed)
         self._camera = self._choose_camera()
         self._scenery = Scenery(model, self._data, self._extent)
-        self._renderer = new_renderer(model, options.width, options.height)
+        self._renderer = new_renderer(model, width, height)
 
     def frame_times(self) -> Array:
         """Return the simulated times of the pictures [s]."""

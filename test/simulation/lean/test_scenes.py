@@ -35,7 +35,8 @@ def test_doctor_says_what_is_on():
     rows = {row.name: row for row in examine_scene('x500')}
     assert rows['stages'].found == (
         'contacts while geoms are near each other; no other constraints; '
-        'places of 0 of 23 geoms at every evaluation; moments of actuators at sites by tree'
+        'places of 0 of 23 geoms at every evaluation; moments of actuators at sites by tree; '
+        "MuJoCo's fluid forces by chain"
     )
     rows = {row.name: row for row in examine_scene('kirchhoff')}
     assert rows['stages'].found.startswith('contacts never')

@@ -48,6 +48,7 @@ const mjtNum* RigidMatrix(const mjModel* m, const BodyFluid& body) {
 }
 
 constexpr int kLongest = 32;  // chain that is worked on side by side
+constexpr int kSide = 4;      // of these at once, as a register holds
 
 // Motions of a chain's degrees of freedom, or their momenta.
 struct Chain {
@@ -152,6 +153,9 @@ void AddChainInertia(const mjModel* m, mjData* d, const BodyFluid& body, const M
     const mjtNum* cdof = d->cdof + 6 * chain[i];
     for (int k = 0; k < 6; ++k) axis.rows[k][i] = cdof[(k + 3) % 6];  // (linear, angular)
   }
+  for (int i = length; i % kSide != 0; ++i) {
+    for (int k = 0; k < 6; ++k) axis.rows[k][i] = 0;
+  }
   for (int k = 0; k < 6; ++k) {
     const mjtNum* a = at_com + 6 * k;
     for (int i = 0; i < length; ++i) {
@@ -159,12 +163,18 @@ void AddChainInertia(const mjModel* m, mjData* d, const BodyFluid& body, const M
                           a[3] * axis.rows[3][i] + a[4] * axis.rows[4][i] + a[5] * axis.rows[5][i];
     }
   }
-  for (int i = 0; i < length; ++i) {
-    mjtNum c[6], *row = d->M + m->M_rowadr[chain[i]];
-    for (int k = 0; k < 6; ++k) c[k] = column.rows[k][i];
-    for (int j = 0; j <= i; ++j) {
-      row[j] += axis.rows[0][j] * c[0] + axis.rows[1][j] * c[1] + axis.rows[2][j] * c[2] +
-                (axis.rows[3][j] * c[3] + axis.rows[4][j] * c[4] + axis.rows[5][j] * c[5]);
+  for (int begin = 0; begin < length; begin += kSide) {
+    for (int i = begin; i < length; ++i) {
+      mjtNum sum[kSide], *row = d->M + m->M_rowadr[chain[i]] + begin;
+      for (int j = 0; j < kSide; ++j) {
+        const auto product = [&](int k) { return axis.rows[k][begin + j] * column.rows[k][i]; };
+        sum[j] = product(0) + product(1) + product(2) + (product(3) + product(4) + product(5));
+      }
+      if (i >= begin + kSide - 1) {
+        for (int j = 0; j < kSide; ++j) row[j] += sum[j];
+      } else {
+        for (int j = 0; j <= i - begin; ++j) row[j] += sum[j];
+      }
     }
   }
 }

@@ -85,6 +85,7 @@ void Lean::Step(const mjModel* m, mjData* d, bool last) {
   }
   const int flags = constraints_ ? mjDSBL_CONTACT : mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
   head_.opt.disableflags = off_ ? m->opt.disableflags | flags : m->opt.disableflags;
+  if (m->nsensor == 0) head_.opt.disableflags |= mjDSBL_SENSOR;  // nor a loop over plugins
   // geoms that collide may stand anywhere in the list
   const bool fewer = off_ && !last;
   head_.ngeom = fewer ? moved_geoms_ : m->ngeom;
