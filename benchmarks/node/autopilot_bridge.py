@@ -6,21 +6,27 @@ What an autopilot costs: speed in lockstep with a peer over real sockets, and th
 The peer is a process that answers each state at once with the thrust of hover, so that what is
 measured is the bridge and the sockets, not a controller. The overhead of an exchange is the
 processor time that the loop spends in the bridge, the simulated sensors and the system's sockets
-included, without that of waiting for the peer, which it does awake for a while. An exchange of
-PX4 covers two steps of the quadrotor. Ratios are of one run. Targets: PX4 at 250 Hz at least 20
-times real time, median overhead of a step 50 us or less. ``profile`` holds the shares of the parts
-of an exchange by cProfile's count of processor time, which makes small functions look larger.
+included, without that of waiting for the peer, which it does awake for a while. ``physics`` is the
+part of it in which the forces are evaluated that the sensors read, ``own`` the rest: sensors,
+bytes, checksums, sockets and commands. ``parts`` are clocked in exchanges of their own, each clock
+taking half a microsecond, ``python`` being what no other part has. ``bare`` are the system's calls
+alone: as many bytes sent to and received from a process that answers them, in the same run. An
+exchange of PX4 covers two steps of the quadrotor. Ratios are of one run. Targets: PX4 at 250 Hz at
+least 20 times real time, median overhead of a step 50 us or less, median ``own`` 30 us or less.
+``profile`` holds the shares of the parts of an exchange by cProfile's count of processor time,
+which makes small functions look larger.
 """
 
 import cProfile
 import math
 import multiprocessing
 import pstats
+import select
 import socket
 import statistics
 import struct
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from benchmarks.common import arguments, wall_seconds, write
@@ -28,22 +34,23 @@ from fluid_sim_ros import Simulation
 from fluid_sim_ros.loop.autopilot_pacing import AutopilotPacing
 from fluid_sim_ros.loop.autopilot_port import (
     AutopilotOptions,
-    Bridge,
     Surroundings,
     open_bridge,
 )
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
+from fluid_sim_ros.mavlink.link import AutopilotLink
 from fluid_sim_ros.mavlink.px4.hil_messages import dialect
 from fluid_sim_ros.mavlink.px4.wire import Frame
 from fluid_sim_ros.mavlink.sockets import Watch
+from fluid_sim_ros.plugins.exchange import PARTS
 from fluid_sim_ros.step_clock import NEVER
 
 SCENE = 'x500_ground'
 #: Share of full speed at which the x500 hovers: sqrt(2.06432 kg x 9.81 m/s^2 / 4 / 8.54858 N).
 HOVER = 0.77
 ARDUPILOT_RATE = 400  # [Hz]
-TARGETS = {'real_time_factor': 20.0, 'overhead_per_step_us': 50.0}
+TARGETS = {'real_time_factor': 20.0, 'overhead_per_step_us': 50.0, 'own_us': 30.0}
 #: Exchanges before the measurement: the first answers, and caches.
 _WARM_UP = 200
 #: Exchanges in one round; bridged and bare rounds take turns, and their medians count.
@@ -83,42 +90,106 @@ def ardupilot_peer(port: int) -> None:
 
 
 class Timed(AutopilotPacing):
-    """Keeps the processor time that the loop spent in each exchange [s]."""
+    """
+    Keeps the processor time that the loop spent in each exchange [s].
 
-    def __init__(self, bridge: Bridge) -> None:
+    ``exchanges`` has a row for each: all of it, and each of ``PARTS`` of plugins/exchange.py.
+    """
+
+    def __init__(self, bridge: AutopilotLink, simulation: Simulation) -> None:
         super().__init__(bridge, Pacing())
-        self.overheads: list[float] = []
-        self._spent = 0.0
-        self.waited = 0.0
+        self.exchanges: list[list[float]] = []
+        self._all = 0.0
+        self._peer = bridge.peer
+        self._parts = [0.0] * len(PARTS)  # of what Python does of them
+        self.clock_parts('waiting', 'observing')
+        self._clock_python(Watch, 'readable', PARTS.index('waiting'))
+        self._clock_python(simulation, 'observe', PARTS.index('observing'))
+
+    def clock_parts(self, *parts: str) -> None:
+        """Clock these parts of the exchange where the library has it, and no others."""
+        self._peer.clocked = sum(1 << PARTS.index(part) for part in parts)
 
     def meet(self, simulation: Simulation, source: Any) -> bool:
         """Exchange under the clock."""
         begin = time.thread_time()
         met = super().meet(simulation, source)
-        self._spent += time.thread_time() - begin
+        self._all += time.thread_time() - begin
         if met:
-            self.overheads.append(self._spent - self.waited)
-            self._spent = self.waited = 0.0
+            both = zip(self._parts, self._peer.spent, strict=True)
+            self.exchanges.append([self._all, *(ours + library for ours, library in both)])
+            self._all, self._parts[:] = 0.0, [0.0] * len(PARTS)
+            self._peer.spent[:] = self._parts
         return met
 
+    def _clock_python(self, owner: Any, name: str, part: int) -> None:
+        method = getattr(owner, name)
 
-_readable = Watch.readable
+        def timed(*args: Any, **options: Any) -> Any:
+            begin = time.thread_time()
+            found = method(*args, **options)
+            self._parts[part] += time.thread_time() - begin
+            return found
 
-
-def clock_waiting(pacing: Timed) -> None:
-    """Have the sockets' waiting counted apart, by its processor time [s]."""
-
-    def timed(watch: Watch, timeout: float) -> bool:
-        begin = time.thread_time()
-        found = _readable(watch, timeout)
-        pacing.waited += time.thread_time() - begin
-        return found
-
-    Watch.readable = timed  # type: ignore[method-assign]
+        setattr(owner, name, timed)
 
 
+def bare(protocol: str, rounds: int = 4000) -> dict[str, float]:
+    """Return the medians of the processor time of one send and one receive [us]."""
+    kind = socket.SOCK_STREAM if protocol == 'px4' else socket.SOCK_DGRAM
+    out, back = SIZES[protocol]
+    process = multiprocessing.get_context('spawn').Process(
+        target=echo, args=(port := _free_port(protocol), kind, back), daemon=True
+    )
+    with socket.socket(socket.AF_INET, kind) as end:
+        end.bind(('127.0.0.1', port))
+        if kind == socket.SOCK_STREAM:
+            end.listen(1)
+        process.start()
+        try:
+            if kind == socket.SOCK_STREAM:
+                link = end.accept()[0]
+                link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            else:
+                link = end.dup()
+                link.connect(link.recvfrom(65536)[1])
+            with link:
+                spent = [_echoed(link, bytes(out)) for _ in range(rounds)]
+        finally:
+            process.terminate()
+    send, receive = (1e6 * statistics.median(part) for part in zip(*spent, strict=True))
+    return {'send_us': send, 'receive_us': receive}
+
+
+def echo(port: int, kind: int, size: int) -> None:
+    """Answer whatever comes with so many bytes."""
+    with socket.socket(socket.AF_INET, kind) as end:
+        end.connect(('127.0.0.1', port))
+        answer = bytes(size)
+        if kind == socket.SOCK_DGRAM:
+            end.send(answer)
+        while end.recv(65536):
+            end.send(answer)
+
+
+def _echoed(link: socket.socket, data: bytes) -> tuple[float, float]:
+    """Return the processor time of a send and of a receive without waiting [s]."""
+    poll = select.poll()
+    poll.register(link, select.POLLIN)
+    begin = time.thread_time()
+    link.send(data)
+    sent = time.thread_time()
+    while not poll.poll(0):
+        pass
+    came = time.thread_time()
+    link.recv(65536)
+    return sent - begin, time.thread_time() - came
+
+
+#: Bytes of a state and of an answer.
+SIZES = {'px4': (77, 93), 'ardupilot': (400, 40)}
 #: Part of an exchange -> begins of the modules that do it.
-PARTS = {
+MODULES = {
     'simulation': ('simulation/', 'scene/', 'plugins/'),
     'sensors and noise': ('sensors/', 'physics/'),
     'readings and packets': ('mavlink/px4/', 'mavlink/ardupilot/', 'mavlink/ned', 'mavlink/veh'),
@@ -132,7 +203,7 @@ def profile(exchange: Callable[[int], None], exchanges: int) -> dict[str, float]
     """Return each part's share of the loop's processor time; a built-in goes to its caller."""
     profiler = cProfile.Profile(time.thread_time)
     profiler.runcall(exchange, exchanges)
-    spent = dict.fromkeys([*PARTS, 'rest'], 0.0)
+    spent = dict.fromkeys([*MODULES, 'rest'], 0.0)
     for (file, _, name), row in pstats.Stats(profiler).stats.items():  # type: ignore[attr-defined]
         own, callers = row[2], row[4]
         if file != '~' or 'socket' in name or 'poll' in name:
@@ -146,7 +217,7 @@ def profile(exchange: Callable[[int], None], exchanges: int) -> dict[str, float]
 
 def _part(file: str) -> str:
     module = file.split('fluid_sim_ros/')[-1]
-    for part, begins in PARTS.items():
+    for part, begins in MODULES.items():
         if module.startswith(begins):
             return part
     return 'rest'
@@ -157,8 +228,8 @@ def measure(protocol: str, exchanges: int) -> dict[str, Any]:
     simulation = Simulation(SCENE)
     bridge = open_bridge(simulation, AutopilotOptions(protocol, port=_free_port(protocol)),
                          Surroundings())  # fmt: skip
-    pacing = Timed(bridge)
-    clock_waiting(pacing)
+    assert isinstance(bridge, AutopilotLink)
+    pacing = Timed(bridge, simulation)
     runner = Runner(simulation, NoSource(), [], pacing)
     rate = 250 if protocol == 'px4' else ARDUPILOT_RATE
 
@@ -168,11 +239,11 @@ def measure(protocol: str, exchanges: int) -> dict[str, Any]:
         runner.run(NEVER)
 
     per_exchange = 2 if protocol == 'px4' else math.ceil(1 / ARDUPILOT_RATE / simulation.timestep)
-    bare, bridged, alone = Simulation(SCENE), [], []
+    bare_simulation, bridged, alone = Simulation(SCENE), [], []
 
     def step_alone() -> None:
         for _ in range(_ROUND):
-            bare.step(per_exchange)
+            bare_simulation.step(per_exchange)
 
     peer = {'px4': px4_peer, 'ardupilot': ardupilot_peer}[protocol]
     process = multiprocessing.get_context('spawn').Process(
@@ -181,17 +252,25 @@ def measure(protocol: str, exchanges: int) -> dict[str, Any]:
     process.start()
     try:
         exchange(_WARM_UP)
-        pacing.overheads.clear()
-        bare.load_state(simulation.save_state())
+        pacing.exchanges.clear()
+        bare_simulation.load_state(simulation.save_state())
         for _ in range(exchanges // _ROUND):
             bridged.append(wall_seconds(lambda: exchange(_ROUND)))
             alone.append(wall_seconds(step_alone))
         steps = simulation.step_count
+        rows = [pacing.exchanges[i] for i in range(len(bridged) * _ROUND)]
+        pacing.clock_parts(*PARTS)
+        pacing.exchanges.clear()
+        exchange(exchanges // 10)
+        parts = [_median_us(column) for column in zip(*pacing.exchanges, strict=True)]
+        pacing.clock_parts('waiting', 'observing')
         shares = profile(exchange, exchanges // 10)
     finally:
         process.terminate()
         bridge.close()
-    overheads = sorted(1e6 * spent for spent in pacing.overheads[: len(bridged) * _ROUND])
+    waiting, observing = (1 + PARTS.index(part) for part in ('waiting', 'observing'))
+    overheads = sorted(1e6 * (row[0] - row[waiting]) for row in rows)
+    own = sorted(1e6 * (row[0] - row[waiting] - row[observing]) for row in rows)
     wall, bare_wall = statistics.median(bridged), statistics.median(alone)
     return {
         'exchange_rate_hz': rate,
@@ -205,8 +284,18 @@ def measure(protocol: str, exchanges: int) -> dict[str, Any]:
         'overhead_median_us': statistics.median(overheads),
         'overhead_p99_us': overheads[int(0.99 * len(overheads))],
         'overhead_per_step_median_us': statistics.median(overheads) / per_exchange,
+        'physics_median_us': _median_us([row[observing] for row in rows]),
+        'own_median_us': statistics.median(own),
+        'own_p99_us': own[int(0.99 * len(own))],
+        'parts_median_us': dict(zip(PARTS, parts[1:], strict=True))
+        | {'python': parts[0] - sum(parts[1:])},
+        'bare': bare(protocol),
         'profile': shares,
     }
+
+
+def _median_us(seconds: Sequence[float]) -> float:
+    return 1e6 * statistics.median(seconds)
 
 
 def _free_port(protocol: str) -> int:
@@ -227,6 +316,13 @@ def main() -> None:
             f'({row["share_of_bare_speed"]:.2f} of bare stepping), overhead of an exchange '
             f'{row["overhead_median_us"]:.0f} us (99 %: {row["overhead_p99_us"]:.0f} us)'
         )
+        print(
+            f'  of it physics {row["physics_median_us"]:.1f} us, own '
+            f'{row["own_median_us"]:.1f} us (99 %: {row["own_p99_us"]:.0f} us); bare send '
+            f'{row["bare"]["send_us"]:.1f} us, receive {row["bare"]["receive_us"]:.1f} us'
+        )
+        clocked = ', '.join(f'{k} {v:.1f}' for k, v in row['parts_median_us'].items())
+        print(f'  parts [us]: {clocked}')
         parts = ', '.join(f'{part} {share:.0%}' for part, share in row['profile'].items())
         print(f'  of an exchange: {parts}')
     write(options.json, {'scene': SCENE, 'targets': TARGETS, **rows})

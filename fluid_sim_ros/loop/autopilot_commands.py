@@ -60,14 +60,29 @@ class VehicleCommands:
             For a wrong length, or a value that is not finite.
 
         """
-        simulation, name, log = self._simulation, self._vehicle, self._surroundings.log
+        simulation, name = self._simulation, self._vehicle
+        self.log(thrusts, joints)
         if thrusts:
-            if log is not None:
-                struct.pack_into(f'<{len(thrusts)}d', self._thrust.blocks[0], 0, *thrusts)
-                log.command(f'{name}/cmd/thrust', self._thrust.bytes())
             self.saturated += simulation.set_thrust(name, thrusts)
         if joints:
-            if log is not None:
-                struct.pack_into(f'<{len(joints)}d', self._joints.blocks[0], 0, *joints)
-                log.command(f'{name}/cmd/joints', self._joints.bytes())
             self.saturated += simulation.set_joints(name, joints)
+
+    def log(self, thrusts: Sequence[float], joints: Sequence[float]) -> None:
+        """
+        Log commands of all thrusters and all joints that take effect at this boundary.
+
+        Parameters
+        ----------
+        thrusts, joints
+            See ``set``.
+
+        """
+        name, log = self._vehicle, self._surroundings.log
+        if log is None:
+            return
+        if thrusts:
+            struct.pack_into(f'<{len(thrusts)}d', self._thrust.blocks[0], 0, *thrusts)
+            log.command(f'{name}/cmd/thrust', self._thrust.bytes())
+        if joints:
+            struct.pack_into(f'<{len(joints)}d', self._joints.blocks[0], 0, *joints)
+            log.command(f'{name}/cmd/joints', self._joints.bytes())

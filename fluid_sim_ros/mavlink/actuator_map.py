@@ -12,13 +12,18 @@ from pathlib import Path
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.mavlink.mapping import ActuatorFile, AutopilotFile
 from fluid_sim_ros.physics.t200 import t200_table
-from fluid_sim_ros.plugins.exchange import CURVES, OutputCurve, exchange_library
+from fluid_sim_ros.plugins.exchange import (
+    CURVES,
+    MOST_OUTPUTS,
+    ControlPorts,
+    Driven,
+    OutputCurve,
+    exchange_library,
+)
 from fluid_sim_ros.scene.vehicle import Vehicle
 
 #: Outputs of a HIL_ACTUATOR_CONTROLS and of the longest servo packet.
-OUTPUTS = {'px4': 16, 'ardupilot': 32}
-#: Outputs of the longest of them.
-_MOST = max(OUTPUTS.values())
+OUTPUTS = {'px4': 16, 'ardupilot': MOST_OUTPUTS}
 #: An output that drives nothing counts as commanded when it has moved by this share of 1.
 _MOVED = 0.05
 #: Values of pulse width [us] are larger than this, controls of PX4 are not.
@@ -42,6 +47,8 @@ class ActuatorMap:
 
     Attributes
     ----------
+    driven
+        The same for the compiled exchange, which keeps the last outputs and commands in it.
     stray
         Numbers of outputs that moved and drive nothing.
 
@@ -78,6 +85,7 @@ class ActuatorMap:
             )
             for name, limits in zip(names, ranges.tolist(), strict=True)
         ])  # fmt: skip
+        self.driven = self._compiled.driven
         self._span = max(a.input[-1] - a.input[0] for a in file.actuators)
         self._watched = sorted(set(range(1, 33)) - {*outputs, *file.ignored})
         self._seen: Sequence[float] = ()
@@ -103,6 +111,30 @@ class ActuatorMap:
         commands, count = self._compiled(outputs), len(self._thrusters)
         return commands[:count], commands[count:]
 
+    def drive(self, thrusters: ControlPorts, joints: ControlPorts) -> None:
+        """
+        Have the compiled exchange write commands.
+
+        Parameters
+        ----------
+        thrusters, joints
+            Where to: ``Simulation.control_ports``.
+
+        """
+        self.driven.thrusters, self.driven.joints = thrusters, joints
+
+    @property
+    def outputs(self) -> list[float]:
+        """The last outputs that became commands; empty before the first."""
+        outputs: list[float] = self.driven.outputs[: self.driven.known]
+        return outputs
+
+    @property
+    def last(self) -> tuple[list[float], list[float]]:
+        """The last commands: thrusts [N] and joints; zeros before the first."""
+        commands, count = self._compiled.last(), len(self._thrusters)
+        return commands[:count], commands[count:]
+
     def plain_commands(self, outputs: Sequence[float]) -> tuple[list[float], list[float]]:
         """
         Return the same as ``commands``: its twin in Python.
@@ -116,21 +148,16 @@ class ActuatorMap:
         thrusts = [curve(outputs[place]) for place, curve in self._thrusters]
         return thrusts, [curve(outputs[place]) for place, curve in self._joints]
 
-    def look_for_stray(self, outputs: Sequence[float]) -> int | None:
+    def look_for_stray(self) -> int | None:
         """
-        Return an output that has moved since the first look and drives nothing, once each.
+        Return one of the last outputs that has moved since the first look and drives nothing.
 
-        Cheap enough for every answer, because it looks at every 25th only.
-
-        Parameters
-        ----------
-        outputs
-            As for ``commands``.
-
+        Once each. Cheap enough for every answer, because it looks at every 25th only.
         """
         self._looks += 1
         if self._looks % _LOOK:
             return None
+        outputs = self.outputs
         if len(self._seen) != len(outputs):
             self._seen = outputs
         for number in self._watched:
@@ -161,18 +188,27 @@ class _Compiled:
                 curve.pulses, curve.thrusts = table[0].ctypes.data, table[1].ctypes.data
                 curve.points = table.shape[1]
                 self._tables.append(table)
-        self._outputs, self._commands = (ctypes.c_double * _MOST)(), (ctypes.c_double * count)()
+        self._commands = (ctypes.c_double * count)()
+        self.driven = Driven(
+            curves=ctypes.addressof(self._curves), commands=ctypes.addressof(self._commands)
+        )
+        self._outputs = self.driven.outputs
         self._run = exchange_library().outputs
         self._arguments = (
             ctypes.addressof(self._curves), count, ctypes.addressof(self._outputs),
             ctypes.addressof(self._commands),
         )  # fmt: skip
-        self._layouts = {n: struct.Struct(f'={n}d') for n in range(_MOST + 1)}
+        self._layouts = {n: struct.Struct(f'={n}d') for n in range(MOST_OUTPUTS + 1)}
 
     def __call__(self, outputs: Sequence[float]) -> list[float]:
         self._layouts[len(outputs)].pack_into(self._outputs, 0, *outputs)
+        self.driven.known = len(outputs)
         self._run(*self._arguments)
-        return self._commands[:]
+        return self.last()
+
+    def last(self) -> list[float]:
+        commands: list[float] = self._commands[:]
+        return commands
 
 
 def _check_all(path: Path, kind: str, driven: list[str], existing: Sequence[str]) -> None:

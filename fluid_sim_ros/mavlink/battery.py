@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A battery that a vehicle's thrusters draw on."""
 
+import ctypes
 from collections.abc import Sequence
 
 from fluid_sim_ros.mavlink.mapping import BatteryFile
+from fluid_sim_ros.plugins.exchange import BatteryState
 
 _HOUR = 3600.0  # [s]
 
@@ -26,23 +28,49 @@ class Battery:
 
     Attributes
     ----------
-    voltage, current
-        At its terminals [V], [A].
-    used, left
-        Charge that was drawn [Ah], and the share of its capacity that is left.
+    state
+        The same where the compiled exchange draws on it (plugins/src/exchange/battery.cc, with
+        the same bits as ``draw``): ``voltage`` and ``current`` at its terminals [V], [A]; the
+        charge ``used`` [Ah], and the share of its capacity that is ``left``.
 
     """
 
     def __init__(self, file: BatteryFile, limits: Sequence[float]) -> None:
         self._file = file
         self._limits = tuple(limits)
+        self._numbers = (ctypes.c_double * len(self._limits))(*self._limits)
+        self.state = BatteryState(
+            full=file.full, empty=file.empty, capacity=file.capacity, resistance=file.resistance,
+            idle=file.idle, full_current=file.full_current, thrusters=len(self._limits),
+            limits=ctypes.addressof(self._numbers),
+        )  # fmt: skip
         self.refill()
+
+    @property
+    def voltage(self) -> float:
+        """At its terminals [V]."""
+        return float(self.state.voltage)
+
+    @property
+    def current(self) -> float:
+        """At its terminals [A]."""
+        return float(self.state.current)
+
+    @property
+    def used(self) -> float:
+        """Charge that was drawn [Ah]."""
+        return float(self.state.used)
+
+    @property
+    def left(self) -> float:
+        """The share of its capacity that is left."""
+        return float(self.state.left)
 
     def refill(self) -> None:
         """Be full again, as where a flight begins anew."""
-        self.used, self.left = 0.0, 1.0
-        self.current = self._file.idle
-        self.voltage = self._file.full
+        state, file = self.state, self._file
+        state.used, state.left = 0.0, 1.0
+        state.current, state.voltage = file.idle, file.full
 
     def draw(self, thrusts: Sequence[float], seconds: float) -> None:
         """
@@ -56,10 +84,13 @@ class Battery:
             How long.
 
         """
-        file = self._file
-        shares = [(abs(t) / limit) ** 1.5 for t, limit in zip(thrusts, self._limits, strict=True)]
-        self.current = file.idle + file.full_current * sum(shares) / len(shares)
-        self.used += self.current * seconds / _HOUR
-        self.left = max(0.0, 1.0 - self.used / file.capacity)
-        open_voltage = file.empty + self.left * (file.full - file.empty)
-        self.voltage = max(0.0, open_voltage - file.resistance * self.current)
+        file, state = self._file, self.state
+        shares = 0.0  # added one by one: from Python 3.12 on ``sum`` rounds otherwise
+        for thrust, limit in zip(thrusts, self._limits, strict=True):
+            shares += (abs(thrust) / limit) ** 1.5
+        current = file.idle + file.full_current * shares / len(self._limits)
+        used = state.used + current * seconds / _HOUR
+        left = max(0.0, 1.0 - used / file.capacity)
+        open_voltage = file.empty + left * (file.full - file.empty)
+        state.current, state.used, state.left = current, used, left
+        state.voltage = max(0.0, open_voltage - file.resistance * current)

@@ -16,6 +16,7 @@ from fluid_sim_ros.mavlink.actuator_map import ActuatorMap
 from fluid_sim_ros.mavlink.counters import Counters
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.sticks import CHANNELS, Sticks
+from fluid_sim_ros.plugins.exchange import Peer
 from fluid_sim_ros.simulation import Simulation
 
 #: Longest wait for an autopilot at a time [s], so that requests of other threads are served.
@@ -44,6 +45,8 @@ class AutopilotLink(ABC):
         Name of the vehicle.
     counters
         What has happened.
+    peer
+        The other end of its socket, as the compiled exchange knows it.
 
     """
 
@@ -53,6 +56,7 @@ class AutopilotLink(ABC):
     #: Channels of a radio control that it takes.
     channels: ClassVar[int] = CHANNELS
     leads: ClassVar[bool] = False
+    peer: Peer
 
     def __init__(
         self,
@@ -68,8 +72,8 @@ class AutopilotLink(ABC):
         self._actuators = actuators
         self._sticks = Sticks(file.rc, options.sticks_timeout, self.channels)
         self._commands = VehicleCommands(simulation, options.vehicle, surroundings)
-        self._outputs: Sequence[float] = ()
-        self._thrusts: Sequence[float] = actuators.rest[0]  # [N]
+        actuators.drive(*simulation.control_ports(options.vehicle))
+        self._usual = False  # the next exchange may be one call of the library
 
     @abstractmethod
     def begin(self, simulation: Simulation) -> None:
@@ -164,7 +168,7 @@ class AutopilotLink(ABC):
         counters = self.counters
         values = {
             'protocol': self.protocol, **self._values(), 'sticks_lost': self._sticks.lost,
-            'last_outputs': [round(value, 3) for value in self._outputs],
+            'last_outputs': [round(value, 3) for value in self._actuators.outputs],
             'saturated': self._commands.saturated, **counters.values(),
         }  # fmt: skip
         trouble = self._trouble()
@@ -188,10 +192,19 @@ class AutopilotLink(ABC):
 
     def _drive(self, outputs: Sequence[float]) -> None:
         """Command what the outputs drive; one that moves and drives nothing is reported."""
-        self._outputs = outputs
-        self._thrusts, joints = self._actuators.commands(outputs)
-        self._commands.set(self._thrusts, joints)
-        stray = self._actuators.look_for_stray(outputs)
+        self._commands.set(*self._actuators.commands(outputs))
+        self._look_for_stray()
+
+    def _driven(self) -> None:
+        """Note what the compiled exchange has commanded."""
+        actuators, commands = self._actuators, self._commands
+        if self._surroundings.log is not None:
+            commands.log(*actuators.last)
+        commands.saturated += actuators.driven.beyond
+        self._look_for_stray()
+
+    def _look_for_stray(self) -> None:
+        stray = self._actuators.look_for_stray()
         if stray is not None:
             line = f'{self.name} moves output {stray}, which drives nothing'
             self._surroundings.report(f'output {stray}', line)

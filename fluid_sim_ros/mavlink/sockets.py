@@ -60,6 +60,11 @@ def listen(kind: Any, address: str, port: int, what: str) -> socket.socket:
     return listener
 
 
+def is_alone() -> bool:
+    """Return whether this process may use one processor only."""
+    return len(os.sched_getaffinity(0)) < 2
+
+
 class Watch:
     """
     Waits until a socket can be read; without sleeping while its peer is a quick one.
@@ -77,7 +82,7 @@ class Watch:
     def __init__(self, watched: socket.socket) -> None:
         self._readable = select.poll()
         self._readable.register(watched, select.POLLIN)
-        self._alone = len(os.sched_getaffinity(0)) < 2
+        self._alone = is_alone()
         self._quick = False
 
     def readable(self, timeout: float) -> bool:

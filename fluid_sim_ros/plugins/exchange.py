@@ -12,8 +12,16 @@ from fluid_sim_ros.plugins import load_plugins, plugin_library
 
 #: Numbers of the widest reading, constants of an instrument, and channels of a radio control.
 WIDEST, CONSTANTS, CHANNELS = 6, 5, 18
-#: Whole frames of MAVLink are not longer [bytes]; nor are replies to ArduPilot.
-LONGEST_FRAME, LONGEST_REPLY = 280, 4096
+#: Whole frames of MAVLink are not longer [bytes]; nor are replies to ArduPilot, its packets, and
+#: what is read at once of PX4.
+LONGEST_FRAME, LONGEST_REPLY, LONGEST_PACKET, PORTION = 280, 4096, 72, 65536
+#: Outputs of an autopilot.
+MOST_OUTPUTS = 32
+#: What an exchange has found, and what it does: ``Found`` and ``Phase`` of exchange/peer.h.
+SILENT, ANSWERED, OTHER, GONE, HELD, BEFORE = range(6)
+ASK, HEAR, OBSERVED = 1, 2, 4
+#: Parts of an exchange whose processor time ``Peer.spent`` keeps.
+PARTS = ('observing', 'writing', 'sending', 'waiting', 'receiving', 'driving')
 #: Kinds of curves, in the order of ``CurveKind`` in exchange/outputs.cc.
 CURVES = ('thrust', 'rotor_speed', 't200')
 
@@ -86,6 +94,83 @@ class OutputCurve(ctypes.Structure):
     ]  # fmt: skip
 
 
+class Observer(ctypes.Structure):
+    """What ``fsr_observe`` takes: addresses, and the number of vehicles."""
+
+    _fields_: ClassVar = [
+        *((name, _pointer) for name in ('model', 'data', 'scratch', 'bases')),
+        ('count', _integer), ('rows', _pointer),
+    ]  # fmt: skip
+
+
+class ControlPorts(ctypes.Structure):
+    """Where the commands of some actuators go; the fields are told of in exchange/outputs.h."""
+
+    _fields_: ClassVar = [
+        ('count', _integer), *((name, _pointer) for name in ('limits', 'scale', 'ids', 'control')),
+    ]  # fmt: skip
+
+
+class Driven(ctypes.Structure):
+    """What an autopilot drives; the fields are told of in exchange/outputs.h."""
+
+    _fields_: ClassVar = [
+        ('curves', _pointer), ('thrusters', ControlPorts), ('joints', ControlPorts),
+        ('commands', _pointer), ('known', _integer), ('outputs', _double * MOST_OUTPUTS),
+        ('beyond', _integer),
+    ]  # fmt: skip
+
+
+class BatteryState(ctypes.Structure):
+    """A battery; the fields are told of in exchange/battery.h."""
+
+    _fields_: ClassVar = [
+        *((name, _double) for name in (
+            'voltage', 'current', 'used', 'left', 'full', 'empty', 'capacity', 'resistance',
+            'idle', 'full_current',
+        )),
+        ('thrusters', _integer), ('limits', _pointer),
+    ]  # fmt: skip
+
+
+class Peer(ctypes.Structure):
+    """The other end of a socket; the fields are told of in exchange/peer.h."""
+
+    _fields_: ClassVar = [
+        *((name, _integer) for name in ('socket', 'alone', 'quick', 'clocked')),
+        ('spent', _double * len(PARTS)),
+    ]  # fmt: skip
+
+
+class Px4Exchange(ctypes.Structure):
+    """A usual exchange with PX4; the fields are told of in exchange/px4_exchange.cc."""
+
+    _fields_: ClassVar = [
+        ('observer', Observer), *((name, _pointer) for name in ('sensors', 'driven', 'battery')),
+        ('period', _double), ('system', _integer), ('component', _integer), ('peer', Peer),
+        *((name, _integer) for name in ('frame_size', 'sent', 'size')), ('answer', Px4Answer),
+        ('frame', ctypes.c_uint8 * LONGEST_FRAME), ('portion', ctypes.c_uint8 * PORTION),
+    ]  # fmt: skip
+
+
+class Sender(ctypes.Structure):
+    """The address of who has sent something: a ``sockaddr`` of ``size`` bytes."""
+
+    _fields_: ClassVar = [('size', _integer), ('address', ctypes.c_uint8 * 128)]
+
+
+class ArduPilotExchange(ctypes.Structure):
+    """A usual exchange with ArduPilot; the fields are told of in ardupilot_exchange.cc."""
+
+    _fields_: ClassVar = [
+        ('observer', Observer), *((name, _pointer) for name in ('state', 'driven', 'battery')),
+        ('rate', _integer), ('seconds', _double), ('reply_size', _integer), ('size', _integer),
+        ('peer', Peer), ('autopilot', Sender), ('sender', Sender),
+        ('reply', ctypes.c_uint8 * LONGEST_REPLY),
+        ('packet', ctypes.c_uint8 * (LONGEST_PACKET + 1)),
+    ]  # fmt: skip
+
+
 class ExchangeLibrary:
     """
     The functions of exchange/ with argument types set; each tells of itself at its definition.
@@ -93,11 +178,13 @@ class ExchangeLibrary:
     Parameters
     ----------
     library
-        The loaded plugin library.
+        The loaded plugin library; its functions take a few microseconds.
+    waiting
+        The same one, whose functions let other threads run meanwhile.
 
     """
 
-    def __init__(self, library: ctypes.CDLL) -> None:
+    def __init__(self, library: ctypes.PyDLL, waiting: ctypes.CDLL) -> None:
         number = ctypes.c_int
         self.look: Callable[[int, int, int], int] = library.fsr_look
         library.fsr_look.argtypes = [_pointer, _pointer, _integer]
@@ -114,6 +201,20 @@ class ExchangeLibrary:
         library.fsr_outputs.restype = None
         self.command: Callable[[int, int, int, int | None, int, int], int] = library.fsr_command
         library.fsr_command.argtypes = [_pointer, number, *[_pointer] * 4]
+        self.draw: Callable[[int, int, float], None] = library.fsr_draw
+        library.fsr_draw.argtypes = [_pointer, _pointer, _double]
+        library.fsr_draw.restype = None
+        self.ardupilot_connected: Callable[[int], int] = library.fsr_ardupilot_connected
+        library.fsr_ardupilot_connected.argtypes = [_pointer]
+        self.px4_exchange: Callable[..., int] = waiting.fsr_px4_exchange
+        waiting.fsr_px4_exchange.argtypes = [
+            _pointer, _integer, _integer, ctypes.c_uint64, number, ctypes.c_char_p, _integer,
+            _double,
+        ]  # fmt: skip
+        self.ardupilot_exchange: Callable[..., int] = waiting.fsr_ardupilot_exchange
+        waiting.fsr_ardupilot_exchange.argtypes = [
+            _pointer, _integer, _integer, _double, _integer, _double,
+        ]  # fmt: skip
 
 
 @cache
@@ -130,8 +231,7 @@ def exchange_library() -> ExchangeLibrary:
     load_plugins()
     path = plugin_library()
     try:
-        # without the interpreter lock being handed over: each takes a few microseconds
-        return ExchangeLibrary(ctypes.PyDLL(str(path)))
+        return ExchangeLibrary(ctypes.PyDLL(str(path)), ctypes.CDLL(str(path)))
     except AttributeError as error:
         raise PluginError(
             f'{path.name} and exchange.py are of different versions; '

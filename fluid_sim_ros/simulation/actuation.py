@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import CommandError, listed
 from fluid_sim_ros.physics.arrays import Array
-from fluid_sim_ros.plugins.exchange import exchange_library
+from fluid_sim_ros.plugins.exchange import ControlPorts, exchange_library
 from fluid_sim_ros.scene.vehicle import Vehicle
 
 WRENCH_FRAMES = ('base_link', 'map')
@@ -95,6 +95,11 @@ class Controls:
             None if self._scale is None else self._scale.ctypes.data, self._ids.ctypes.data,
             control.ctypes.data,
         )  # fmt: skip
+
+    def ports(self) -> ControlPorts:
+        """Return where the compiled exchange with an autopilot writes, as long as this lives."""
+        _, count, limits, scale, ids, control = self._arguments
+        return ControlPorts(count, limits, scale, ids, control)
 
     def read(self) -> Array:
         """Return the present commands."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from fluid_sim_ros.errors import CommandError, did_you_mean, listed
 from fluid_sim_ros.physics.arrays import Array
+from fluid_sim_ros.plugins.exchange import ControlPorts
 from fluid_sim_ros.scene.scene import CompiledScene
 from fluid_sim_ros.scene.vehicle import Vehicle
 from fluid_sim_ros.schema.scene import ScheduledEvent
@@ -94,6 +95,23 @@ class Commands:
                 f"vehicle '{name}' is not in the scene{did_you_mean(name, self._vehicles)} "
                 f'it has: {listed(self._vehicles)}'
             ) from None
+
+    def control_ports(self, vehicle: str) -> tuple[ControlPorts, ControlPorts]:
+        """
+        Return where the compiled exchange with an autopilot writes to.
+
+        Parameters
+        ----------
+        vehicle
+            Vehicle name; a gait of its joints is to be ended before.
+
+        Returns
+        -------
+        thrusters, joints
+            Valid as long as this object lives.
+
+        """
+        return self._thrusts[vehicle].ports(), self._joints[vehicle].ports()
 
     def set_thrust(self, vehicle: str, values: Sequence[float] | Array) -> int:
         """

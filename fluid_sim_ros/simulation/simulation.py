@@ -60,7 +60,10 @@ class Simulation:
     warnings
         The ``WarningLog`` of the run: what was found at load, and by watchdogs.
     observe_addresses
-        What ``observe`` hands to the library, for ``plugins.tick``.
+        What ``observe`` hands to the library, for ``plugins.tick`` and ``plugins.exchange``.
+    control_ports
+        Method that returns where the compiled exchange with an autopilot writes commands; see
+        ``Commands``.
     observe, largest, energy_balance
         Methods that return the vehicles as rows of numbers, a watch of their largest values, and
         what the integrator does to the energy; see ``Engine``.
@@ -116,6 +119,7 @@ class Simulation:
         self.streams, self.flow_source = self._streams.available, self._streams.source
         self.vehicle, self.apply = commands.vehicle, commands.apply
         self.set_thrust, self.set_joints = commands.set_thrust, commands.set_joints
+        self.control_ports = commands.control_ports
         self.set_wind, self.set_current = commands.set_wind, commands.set_current
         self.enable_wind, self.set_wrench = commands.enable_wind, commands.set_wrench
         if unfelt is not None:

@@ -8,7 +8,6 @@ import random
 import struct
 from fractions import Fraction
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -28,6 +27,7 @@ from fluid_sim_ros.mavlink.px4.wire import Frame
 from fluid_sim_ros.mavlink.sticks import Sticks
 from fluid_sim_ros.plugins import native as nat
 from fluid_sim_ros.schema.sensors import Channel, SensorsFile
+from test.support.autopilots.posed import Posed
 from test.support.autopilots.recordings import FROM_AUTOPILOT, TO_AUTOPILOT, portions
 
 ANSWER = Frame(dialect.MAVLink_hil_actuator_controls_message)
@@ -36,34 +36,6 @@ SCENES = ('x500', 'aerosonde', 'bluerov2_heavy')
 #: States of each scene; a million together in make test-full.
 FEW, MANY = 400, 167_000
 VOLUMES = [FEW, pytest.param(MANY, marks=[pytest.mark.full, pytest.mark.timeout(1200)])]
-
-
-class Posed:
-    """A simulation whose observed row is set by hand; ``step`` counts only."""
-
-    def __init__(self, scene, **options):
-        self.simulation = simulation = Simulation(scene, **options)
-        (self.vehicle,) = simulation.vehicles.values()
-        self.row = simulation.observe(forces=True)[0]
-        rows, self._random = simulation.observe(forces=True), np.random.default_rng(5)
-        simulation.observe = lambda forces, wrenches=True: rows
-        simulation._engine_step = lambda n, step: n
-
-    def pose(self):
-        """Go a step on, to a state from slow to far out."""
-        row, drawn = self.row, self._random
-        scale = 10.0 ** drawn.uniform(-6, 3)
-        row[:] = scale * drawn.standard_normal(len(row))
-        row[nat.QUATERNION] = drawn.standard_normal(4)
-        row[nat.QUATERNION] /= np.linalg.norm(row[nat.QUATERNION])
-        if drawn.random() < 0.1:  # numbers that print as few digits, zeros among them
-            row[: nat.QUATERNION.start] = np.round(row[: nat.QUATERNION.start], 1)
-            row[nat.LINEAR_VELOCITY.start :] = np.round(row[nat.LINEAR_VELOCITY.start :])
-        if drawn.random() < 0.05:  # the nose straight up or down
-            row[nat.QUATERNION] = [math.sqrt(0.5), 0, drawn.choice([-1, 1]) * math.sqrt(0.5), 0]
-
-    def mapping(self, protocol):
-        return load_mapping(protocol, self.vehicle.kind, '')[0]
 
 
 @pytest.mark.parametrize('count', VOLUMES)

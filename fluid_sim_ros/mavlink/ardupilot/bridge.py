@@ -6,6 +6,9 @@ ArduPilot in lockstep: a servo packet comes in, one frame is simulated, its end 
 The autopilot leads: it says with each packet how long its frame is, in whole microseconds, since
 its clock counts those. The frame is split into equal steps no longer than the scene's timestep;
 without packets simulated time stands still.
+
+An exchange that is like the one before is one call of the library (``UsualExchange``); all others,
+and what is not usual in such a one, are done here.
 """
 
 import socket
@@ -24,12 +27,14 @@ from fluid_sim_ros.mavlink.ardupilot.json_packets import (
 from fluid_sim_ros.mavlink.ardupilot.json_state import ReplyWriter
 from fluid_sim_ros.mavlink.ardupilot.station import Station, second_port
 from fluid_sim_ros.mavlink.ardupilot.udp_port import Datagram, UdpPort
+from fluid_sim_ros.mavlink.ardupilot.usual import UsualExchange
 from fluid_sim_ros.mavlink.battery import Battery
 from fluid_sim_ros.mavlink.link import SLICE, AutopilotLink, Trouble
 from fluid_sim_ros.mavlink.mapping import AutopilotFile
 from fluid_sim_ros.mavlink.parameter_check import ParameterCheck, cast_value
 from fluid_sim_ros.mavlink.program.parameters import needed_parameters
 from fluid_sim_ros.mavlink.silence import REPORT_AFTER, Silence
+from fluid_sim_ros.plugins.exchange import ANSWERED, ASK, BEFORE, HEAR, SILENT
 from fluid_sim_ros.simulation import Simulation
 
 #: Port of the first instance, and from one instance to the next.
@@ -73,6 +78,8 @@ class ArduPilotBridge(AutopilotLink):
         limits = simulation.vehicle(options.vehicle).thrust_range[:, 1].tolist()
         self._battery = Battery(file.battery, limits) if file.battery else None
         self._state = ReplyWriter(simulation, options.vehicle, self._sticks, self._battery)
+        self._whole = UsualExchange(simulation, self._state, actuators, self._battery)
+        self.peer = self._whole.peer
         self._frames = Frames(simulation.timestep, surroundings.log)
         port = options.port or FIRST_PORT + PORT_STEP * options.instance
         self._port = UdpPort(options.address, port, LONGEST_PACKET)
@@ -91,7 +98,7 @@ class ArduPilotBridge(AutopilotLink):
         self._owed = False  # the autopilot waits for the state at the frame's end
         self._later: Datagram | None = None  # came while the repeated ones were looked through
         self._waiting: ServoPacket | None = None  # first packet of a process that has restarted
-        self._reply = b''
+        self._reply: bytes | None = b''  # None: the library has it
         self._sent_ns = 0
         self._told = 0  # frames that this process has been told the end of
         self._offset_ns = 0  # from simulated time to that of the autopilot
@@ -100,6 +107,7 @@ class ArduPilotBridge(AutopilotLink):
 
     def begin(self, simulation: Simulation) -> None:
         """Let the autopilot's time go on where a reset has set the simulation's back."""
+        self._end_usual()
         self._heard_at = time.monotonic()
         now_ns = simulation.time_ns
         if now_ns + self._offset_ns < self._sent_ns:
@@ -121,7 +129,10 @@ class ArduPilotBridge(AutopilotLink):
     def offer(self, simulation: Simulation) -> None:
         """Answer where a frame has ended."""
         if self._owed and self._frames.over(simulation):
-            self._answer(simulation)
+            if self._usual:
+                self._exchange(simulation, ASK)
+            else:
+                self._answer(simulation)
 
     def next_ns(self, simulation: Simulation) -> int:
         """Return the simulated time at which the present frame ends [ns]."""
@@ -131,8 +142,14 @@ class ArduPilotBridge(AutopilotLink):
         """Answer at the end of a frame, and begin the next one with the packet that follows."""
         if not self._frames.over(simulation):
             return True
+        if self._usual:
+            return self._exchange(simulation, ASK | HEAR if self._owed else HEAR)
         if self._owed:
             self._answer(simulation)
+        return self._begin_next(simulation)
+
+    def _begin_next(self, simulation: Simulation) -> bool:
+        """Begin the next frame where its packet comes, or where it is not waited for."""
         packet, self._waiting = self._waiting, None
         if packet is None:
             packet = self._next_packet(simulation)
@@ -174,15 +191,60 @@ class ArduPilotBridge(AutopilotLink):
 
     # ---- one frame -------------------------------------------------------------------------
 
-    def _answer(self, simulation: Simulation) -> None:
+    def _exchange(self, simulation: Simulation, phases: int) -> bool:
+        """Ask, hear or both as in the exchange before; True when the simulation may go on."""
+        time_s = 0.0
+        if phases & ASK:
+            time_s = self._next_time(simulation)
+            self._reply = None
+        found = self._whole.run(phases, time_s, self._count + 1)
+        if found != ANSWERED:
+            return self._look_closer(simulation, found, phases)
+        if phases & HEAR:
+            self._heard_at = time.monotonic()
+            self._frames.begin(simulation, self._frames.rate)
+            self.counters.answered += 1
+            self._report_check()
+            self._count += 1
+            self._driven()
+            self._owed = True
+        return True
+
+    def _look_closer(self, simulation: Simulation, found: int, phases: int) -> bool:
+        """Go on with an exchange in which something was not usual, as with any other."""
+        self._end_usual()
+        if found == SILENT:
+            self._note_silence(time.monotonic())
+            return self._silence.given_up and self._go_on_alone(simulation)
+        if found == BEFORE:
+            self._sort(self._whole.heard())
+            self._drop_repeated()
+            self._send_reply()
+        else:
+            self._later = self._whole.heard()
+        return phases & HEAR == 0 or self._begin_next(simulation)
+
+    def _end_usual(self) -> None:
+        self._usual = False
+        if self._reply is None:
+            self._reply = self._whole.reply()
+
+    def _send_reply(self) -> None:
+        if self._reply:
+            self._port.send(self._reply, self._peer)
+
+    def _next_time(self, simulation: Simulation) -> float:
+        """Return the time of the state that is now sent, by the autopilot's clock [s]."""
         self._sent_ns = simulation.time_ns + self._offset_ns
         self._told += 1
-        time_s = self._sent_ns * 1e-9 + self._told * _AHEAD
-        self._reply = self._state.reply(time_s)
         self._owed = False
         self.counters.sent += 1
+        return self._sent_ns * 1e-9 + self._told * _AHEAD
+
+    def _answer(self, simulation: Simulation) -> None:
+        self._reply = self._state.reply(self._next_time(simulation))
         self._drop_repeated()
-        self._port.send(self._reply, self._peer)
+        self._send_reply()
 
     def _start_frame(self, simulation: Simulation, packet: ServoPacket) -> None:
         if self._silence.given_up:  # its clock has stood still meanwhile
@@ -192,13 +254,20 @@ class ArduPilotBridge(AutopilotLink):
         self._frames.begin(simulation, packet.rate)
         if self._count >= 0:
             self.counters.answered += 1
-        for key, line in self._check.lines().items():
-            self._surroundings.report(key, line)
+        self._report_check()
         self._count = packet.count
         self._drive(packet.pulses)
+        seconds = 1e-6 * frame_us(packet.rate)
         if self._battery is not None:
-            self._battery.draw(self._thrusts, 1e-6 * frame_us(packet.rate))
+            self._battery.draw(self._actuators.last[0], seconds)
         self._owed = True
+        self._usual = self._later is None and self._whole.connect(
+            self._port.socket, self._peer, packet.rate, seconds
+        )
+
+    def _report_check(self) -> None:
+        for key, line in self._check.lines().items():
+            self._surroundings.report(key, line)
 
     def _go_on_alone(self, simulation: Simulation) -> bool:
         """Begin a while at real time (it was waited for as long), with everything at rest."""
@@ -229,8 +298,7 @@ class ArduPilotBridge(AutopilotLink):
         self._port.bind_to(sender)
         if packet.count == self._count:
             self.counters.repeated += 1
-            if self._reply:
-                self._port.send(self._reply, sender)
+            self._send_reply()
             return None
         if packet.count < self._count:
             self._restart(simulation, packet)
@@ -246,12 +314,16 @@ class ArduPilotBridge(AutopilotLink):
         ArduPilot would take each further answer for that of a later frame.
         """
         while self._later is None and (got := self._port.receive(0.0)) is not None:
-            packet = read_servo_packet(got[0])
-            same = isinstance(packet, ServoPacket) and packet.count == self._count
-            if same and got[1] == self._peer:
-                self.counters.repeated += 1
-            else:
-                self._later = got
+            self._sort(got)
+
+    def _sort(self, got: Datagram) -> None:
+        """Count a question that is repeated; keep any other."""
+        packet = read_servo_packet(got[0])
+        same = isinstance(packet, ServoPacket) and packet.count == self._count
+        if same and got[1] == self._peer:
+            self.counters.repeated += 1
+        else:
+            self._later = got
 
     def _adopt(self, sender: Any, now: float) -> bool:
         """Take a new sender as the autopilot, unless the present one is still there."""

@@ -127,18 +127,41 @@ class ReplyWriter:
         """
         simulation, state, battery = self._simulation, self._state, self._battery
         simulation.observe(forces=True, wrenches=False)
-        if (pulses := self._sticks.pulses()) is not self._pulses:
-            self._pulses = pulses
-            state.channels = len(pulses)
-            state.pulses[: len(pulses)] = pulses
+        self.take_sticks()
         if battery is not None:
             state.voltage, state.current = battery.voltage, battery.current
         (what, into), tick = self._addresses, simulation.tick
         while (size := self._write(what, tick, time_s, into, LONGEST_REPLY)) < 0:
-            compiled = self._compiled[-1 - size]  # at every 256th reading
-            assert compiled is not None
-            compiled.draw(tick)
+            self.draw(size, tick)
         return ctypes.string_at(into, size)
+
+    @property
+    def address(self) -> int:
+        """Of what replies are made from."""
+        return self._addresses[0]
+
+    def take_sticks(self) -> None:
+        """Have the next reply say where the sticks are."""
+        if (pulses := self._sticks.pulses()) is not self._pulses:
+            self._pulses = pulses
+            self._state.channels = len(pulses)
+            self._state.pulses[: len(pulses)] = pulses
+
+    def draw(self, found: int, tick: int) -> None:
+        """
+        Draw the noise that the library asks for, at every 256th reading.
+
+        Parameters
+        ----------
+        found
+            -1 - i for instrument i of ``ArduPilotState``.
+        tick
+            The present one.
+
+        """
+        compiled = self._compiled[-1 - found]
+        assert compiled is not None
+        compiled.draw(tick)
 
 
 def _vane(truth: Truth) -> tuple[float, float]:

@@ -65,6 +65,11 @@ class UdpPort:
         except OSError:  # its network has gone; then everybody is heard, and asked who they are
             return
 
+    @property
+    def socket(self) -> int:
+        """Its file descriptor."""
+        return self._socket.fileno()
+
     def receive(self, timeout: float) -> Datagram | None:
         """
         Return a datagram and its sender, or None when none came within ``timeout`` [s].

@@ -10,6 +10,9 @@ free-wheels: without an answer it goes on at real time.
 
 A PX4 that has answered and is silent may be halted, or slow: it is waited for. Or it goes on and
 sends no outputs, as in flight termination: it still reads what it gets, which shows.
+
+An exchange that is like the one before is one call of the library (``UsualExchange``); all others,
+and what is not usual in such a one, are done here.
 """
 
 import time
@@ -26,7 +29,9 @@ from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.px4.hil_state import HilState
 from fluid_sim_ros.mavlink.px4.reading import Reading
 from fluid_sim_ros.mavlink.px4.tcp_server import TcpServer
+from fluid_sim_ros.mavlink.px4.usual import UsualExchange
 from fluid_sim_ros.mavlink.silence import Silence
+from fluid_sim_ros.plugins.exchange import ANSWERED, ASK, GONE, HEAR, HELD, OTHER
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import exact
 
@@ -79,6 +84,10 @@ class Px4Bridge(AutopilotLink):
         self._writer, self._reader = HilWriter(), HilReader()
         limits = simulation.vehicle(options.vehicle).thrust_range[:, 1].tolist()
         self._companion = Companion(options, file, limits)
+        self._whole = UsualExchange(
+            simulation, self._state, actuators, self._companion.battery, PERIOD_US * 1e-6
+        )
+        self.peer = self._whole.peer
         self._server = TcpServer(options.address, options.port or FIRST_PORT + options.instance)
         self.port = self._server.port
         self._locked = False  # it has answered: wait for it
@@ -96,6 +105,7 @@ class Px4Bridge(AutopilotLink):
 
     def begin(self, simulation: Simulation) -> None:
         """Let the autopilot's time go on where a reset has set the simulation's back."""
+        self._usual = False
         if self._now_us(simulation) < self._sent_us:
             self._offset_us += self._sent_us + PERIOD_US - self._now_us(simulation)
         self._asked_at = time.monotonic()
@@ -118,11 +128,15 @@ class Px4Bridge(AutopilotLink):
         if time_ns % _PERIOD_NS or not now_us:
             return True  # PX4 takes no message of time 0
         if now_us != self._sent_us:
+            if self._usual:
+                return self._exchange(now_us, ASK | HEAR)
             if self._server.stuck and not self._silence.given_up:  # it is halted at its start
                 self._server.send()
                 self._receive(SLICE)
                 return False
             self._send(now_us)
+        elif self._usual and self._answered_us != now_us:  # it was offered
+            return self._exchange(now_us, HEAR)
         return self._wait()
 
     def join(self) -> None:
@@ -133,7 +147,10 @@ class Px4Bridge(AutopilotLink):
         now_us = self._now_us(simulation)
         due = now_us and now_us != self._sent_us and not simulation.time_ns % _PERIOD_NS
         if due and self._server.connected and not self._server.stuck:
-            self._send(now_us)
+            if self._usual:
+                self._exchange(now_us, ASK)
+            else:
+                self._send(now_us)
 
     def next_ns(self, simulation: Simulation) -> int:
         """Return the simulated time of the next exchange [ns]."""
@@ -193,7 +210,8 @@ class Px4Bridge(AutopilotLink):
             return False
         self.counters.connections += 1
         self._writer, self._reader = HilWriter(), HilReader()
-        self._locked = False
+        self._whole.connect(self._server.socket, self._writer)
+        self._locked = self._usual = False
         self._sent_us = self._answered_us = self._offset_us = 0
         self._surroundings.inform(f'PX4 at {self._server.peer}')
         self._companion.open(self._server.host)
@@ -205,13 +223,65 @@ class Px4Bridge(AutopilotLink):
         self._surroundings.reset()
         return False
 
+    def _exchange(self, now_us: int, phases: int) -> bool:
+        """Ask, hear or both as in the exchange before; True when the simulation may go on."""
+        if phases & ASK:
+            self._sent_us = now_us
+            self._asked_at = time.monotonic()
+            self.counters.sent += 1
+        found = self._whole.run(phases, now_us)
+        if phases & ASK:
+            self._companion.tell()
+        if found != ANSWERED:
+            return self._look_closer(found, phases)
+        if phases == ASK:
+            self._server.asked(self._asked_at)
+            return True
+        if phases == HEAR:
+            self._server.heard()
+        self.counters.answered += 1
+        self._answered_us = now_us
+        self._report_companion()
+        self._armed = self._whole.armed
+        self._driven()
+        return True
+
+    def _look_closer(self, found: int, phases: int) -> bool:
+        """Go on with an exchange in which something was not usual, as with any other."""
+        self._usual = False
+        self._server.asked(self._asked_at)
+        if found == GONE:
+            self._server.disconnect()
+            self._lost()
+            return False
+        if found == HELD:
+            self._server.keep(self._whole.unsent())
+            return phases & HEAR == 0 or self._wait()
+        if found == OTHER:
+            self._server.heard()
+            self._read(self._whole.heard())
+            return self._has_answer() or self._wait()
+        return self._is_given_up(time.monotonic() - self._asked_at)
+
+    def _has_answer(self) -> bool:
+        """Return whether the state just sent is answered; the next may be a usual exchange."""
+        if self._answered_us != self._sent_us:
+            return False
+        self._usual = (
+            self._locked
+            and self._whole.usable
+            and self._reader.idle
+            and not (self._server.held or self._silence.reported)
+        )
+        return True
+
     def _send(self, now_us: int) -> None:
         self._sent_us = now_us
         self._asked_at = time.monotonic()
         if self._server.stuck:  # it was given up, and may come back
             self._server.send()
             return
-        self._companion.draw(self._thrusts, PERIOD_US * 1e-6)
+        self._companion.draw(self._actuators.last[0], PERIOD_US * 1e-6)
         self.counters.sent += 1
         self._server.send(self._state.messages(self._writer, now_us))
 
@@ -221,7 +291,7 @@ class Px4Bridge(AutopilotLink):
             left = self._asked_at + _FREE_WHEEL - time.monotonic()
             if not self._receive(SLICE if self._locked else min(left, SLICE)):
                 return False
-            if self._answered_us == self._sent_us:
+            if self._has_answer():
                 return True
             if self._locked:  # else serve requests, and come back
                 return self._is_given_up(time.monotonic() - self._asked_at)
@@ -237,13 +307,16 @@ class Px4Bridge(AutopilotLink):
             self._lost()
             return False
         if data:
-            self._heard = True
-            received = self._reader.receive(data)
-            for fault in received.faults:
-                self._malformed(fault)
-            for actuators in received.actuators:
-                self._take(actuators)
+            self._read(data)
         return True
+
+    def _read(self, data: bytes) -> None:
+        self._heard = True
+        received = self._reader.receive(data)
+        for fault in received.faults:
+            self._malformed(fault)
+        for actuators in received.actuators:
+            self._take(actuators)
 
     def _take(self, actuators: Actuators) -> None:
         counters = self.counters
@@ -263,13 +336,16 @@ class Px4Bridge(AutopilotLink):
         if not self._locked and not actuators.lockstep:
             self._surroundings.report('lockstep', 'this PX4 was built without lockstep')
         self._locked = True
-        for key, line in self._companion.lines().items():
-            self._surroundings.report(key, line)
+        self._report_companion()
         if self._silence.reported:
             self._silence.ends(time.monotonic() - self._silent_at)
             self._reading.forget()
         self._armed = actuators.armed
         self._drive(actuators.controls)
+
+    def _report_companion(self) -> None:
+        for key, line in self._companion.lines().items():
+            self._surroundings.report(key, line)
 
     # ---- when it does not answer -----------------------------------------------------------
 
@@ -291,6 +367,7 @@ class Px4Bridge(AutopilotLink):
         return given_up
 
     def _lost(self, how: str = 'PX4 has closed the connection') -> None:
+        self._usual = False
         self.counters.disconnections += 1
         self._lost_at = time.monotonic()
         self._silence.forget()

@@ -113,6 +113,17 @@ class Companion:
         if self._battery is None:
             return
         self._battery.draw(thrusts, seconds)
+        self.tell()
+
+    @property
+    def battery(self) -> Battery | None:
+        """What its battery monitor measures, or None."""
+        return self._battery
+
+    def tell(self) -> None:
+        """Say now and then what the battery has, which the caller has drawn on."""
+        if self._battery is None:
+            return
         self._draws += 1
         if self._socket is not None and self._draws % _EXCHANGES == 0:
             message = battery_status(self._battery)

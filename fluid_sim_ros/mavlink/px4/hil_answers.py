@@ -16,8 +16,8 @@ from fluid_sim_ros.plugins.exchange import Px4Answer, exchange_library
 
 #: First byte of a message of MAVLink 1.
 MAVLINK1 = 0xFE
-#: MAV_MODE_FLAG_SAFETY_ARMED of ``mode``, HIL_ACTUATOR_CONTROLS_FLAGS_LOCKSTEP of ``flags``.
-_ARMED, _LOCKSTEP = 128, 1
+#: MAV_MODE_FLAG_SAFETYARMED of ``mode``, HIL_ACTUATOR_CONTROLS_FLAGS_LOCKSTEP of ``flags``.
+ARMED, _LOCKSTEP = 128, 1
 #: Message ids.
 _ACTUATORS, _OLD_CONTROLS = 93, 91
 
@@ -50,6 +50,11 @@ class HilReader:
         self._answer = Px4Answer()
         self._address = ctypes.addressof(self._answer)
         self._read = exchange_library().px4_answer
+
+    @property
+    def idle(self) -> bool:
+        """Whether no unfinished message waits for its rest."""
+        return not self._mav.buf
 
     def receive(self, data: bytes) -> Received:
         """
@@ -96,7 +101,7 @@ class HilReader:
 
 
 def _actuators(time_us: int, controls: Sequence[float], mode: int, flags: int) -> Actuators:
-    return Actuators(time_us, controls, bool(mode & _ARMED), bool(flags & _LOCKSTEP))
+    return Actuators(time_us, controls, bool(mode & ARMED), bool(flags & _LOCKSTEP))
 
 
 def _fault(message: dialect.MAVLink_message) -> str:

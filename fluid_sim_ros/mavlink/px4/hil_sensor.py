@@ -163,16 +163,47 @@ class CompiledReadings:
             See there.
 
         """
-        self._all.given = pressure is not None
-        if pressure is not None:
-            self._all.pressure[:] = pressure
+        self.give(pressure)
         (what, into), tick = self._addresses, self._simulation.tick
         number, ids = writer.number(), writer.ids
         while (size := self._sensors(what, tick, now_us, number, *ids, into)) < 0:
-            compiled = self._compiled[-1 - size]  # at every 256th reading
-            assert compiled is not None
-            compiled.draw(tick)
+            self.draw(size, tick)
         return ctypes.string_at(into, size)
+
+    @property
+    def address(self) -> int:
+        """Of what HIL_SENSOR is made from."""
+        return self._addresses[0]
+
+    def give(self, pressure: Vector3 | None) -> None:
+        """
+        Set what is sent instead of the barometer's reading; see ``frame``.
+
+        Parameters
+        ----------
+        pressure
+            See there.
+
+        """
+        self._all.given = pressure is not None
+        if pressure is not None:
+            self._all.pressure[:] = pressure
+
+    def draw(self, found: int, tick: int) -> None:
+        """
+        Draw the noise that the library asks for, at every 256th reading.
+
+        Parameters
+        ----------
+        found
+            -1 - i for instrument i of ``Px4Sensors``.
+        tick
+            The present one.
+
+        """
+        compiled = self._compiled[-1 - found]
+        assert compiled is not None
+        compiled.draw(tick)
 
     def saturated(self) -> dict[str, int]:
         """Return how many values of each of its sensors were beyond the range so far."""

@@ -68,6 +68,15 @@ class HilState:
     readings
         What makes HIL_SENSOR: ``CompiledReadings``, or ``PlainReadings`` with the same bytes.
 
+    Attributes
+    ----------
+    readings
+        As made.
+    vision
+        Whether the vehicle gets its true pose.
+    pressure
+        What the last ``besides`` has sent instead of the barometer's: see ``Readings.frame``.
+
     Raises
     ------
     ConfigError
@@ -85,7 +94,7 @@ class HilState:
         readings: Callable[[Simulation, str, SensorsFile], Readings] = CompiledReadings,
     ) -> None:
         self._simulation = simulation
-        self._vision, self._sticks = file.vision, sticks
+        self.vision, self._sticks = file.vision, sticks
         self._truth = TruthReader(simulation, vehicle)
         home = simulation.scene.home
         self._frame = SphereFrame(home) if earth == 'sphere' else LocalFrame(home)
@@ -97,11 +106,13 @@ class HilState:
         _check(config, [*needed, *(['rangefinder'] if file.optical_flow else [])], vehicle)
         slow = dict.fromkeys(KINDS)
         quick = {kind: getattr(config, kind) for kind in KINDS}
-        self._readings = readings(
+        self.readings = readings(
             simulation, vehicle, SensorsFile(dither=True).model_copy(update=quick)
         )
         self._suite = suite = SensorSuite(simulation, vehicle, config.model_copy(update=slow))
         self._gnss, self._range = suite.gnss, config.rangefinder
+        self._range_period = self.readings.sensors['rangefinder'].period if self._range else 0
+        self.pressure: Vector3 | None = None
         self._flow = OpticalFlow() if file.optical_flow else None
         self._noise = random.Random(simulation.seed)
         self._count = 0
@@ -123,32 +134,65 @@ class HilState:
             MAVLink frames. HIL_SENSOR is the first: PX4's clock is its time, and stamps the rest.
 
         """
-        simulation = self._simulation
-        simulation.observe(forces=True, wrenches=False)
-        tick = simulation.tick
-        looked = tick % self._suite.period == 0
-        if looked:
-            self._suite.read(tick, simulation.time_ns)
+        self._simulation.observe(forces=True, wrenches=False)
+        others, _ = self.besides(writer, now_us)
+        return self.readings.frame(writer, now_us, self.pressure) + others
+
+    def besides(self, writer: HilWriter, now_us: int) -> tuple[bytes, bool]:
+        """
+        Return the messages that follow HIL_SENSOR: none at four exchanges out of five.
+
+        Parameters
+        ----------
+        writer, now_us
+            See ``messages``.
+
+        Returns
+        -------
+        others, observed
+            MAVLink frames, and whether the vehicles were observed for them, with their forces.
+
+        """
+        simulation, gnss, tick = self._simulation, self._gnss, self._simulation.tick
         count, self._count = self._count, self._count + 1
-        pressure, others = None, b''
-        if self._vision and count % _PRESSURE == 0:
-            truth = self._truth.read(forces=False)
-            others += writer.odometry(
-                now_us, truth.position_ned, truth.attitude, truth.velocity_frd, truth.rates,
-                _POSE_VARIANCE, _TWIST_VARIANCE,
-            )  # fmt: skip
-            pressure = self._pressure_at(-truth.position_ned[2])
-        if looked and self._gnss is not None and self._gnss.fresh:
-            others += self._fix(writer, now_us, self._gnss)
-        if count % _TRUTH == 0:
+        vision = self.vision and count % _PRESSURE == 0
+        truth = count % _TRUTH == 0
+        ground = self._range is not None and (
+            self._flow is not None or tick % self._range_period == 0
+        )
+        looks = (
+            gnss is not None
+            and tick % self._suite.period == 0
+            and (gnss.beat.due(tick) or gnss.appears(tick))
+        )
+        self.pressure, others = None, b''
+        observed = vision or truth or ground or looks
+        if observed:
+            simulation.observe(forces=True, wrenches=False)
+        if vision:
+            others += self._pose(writer, now_us)
+        if looks and gnss is not None:
+            gnss.update(tick, simulation.time_ns)
+            if gnss.fresh:
+                others += self._fix(writer, now_us, gnss)
+        if truth:
             others += self._true_state(writer, now_us)
-        if self._range is not None:
+        if ground and self._range is not None:
             others += self._ground(writer, now_us, self._range)
         if count % _STICKS == 0 and (pulses := self._sticks.pulses()):
             others += writer.rc_channels(now_us // 1000, pulses)
         if count % _HEARTBEAT == 0:
             others += writer.heartbeat()
-        return self._readings.frame(writer, now_us, pressure) + others
+        return others, observed
+
+    def _pose(self, writer: HilWriter, now_us: int) -> bytes:
+        """Return ODOMETRY, and note the pressure that goes with it."""
+        truth = self._truth.read(forces=False)
+        self.pressure = self._pressure_at(-truth.position_ned[2])
+        return writer.odometry(
+            now_us, truth.position_ned, truth.attitude, truth.velocity_frd, truth.rates,
+            _POSE_VARIANCE, _TWIST_VARIANCE,
+        )  # fmt: skip
 
     def _fix(self, writer: HilWriter, now_us: int, gnss: Gnss) -> bytes:
         """Return HIL_GPS of a fix that is as old as PX4 takes it for."""
@@ -160,7 +204,7 @@ class HilState:
 
     def _ground(self, writer: HilWriter, now_us: int, sensor: RangefinderFile) -> bytes:
         """Return DISTANCE_SENSOR and, where it is wanted, HIL_OPTICAL_FLOW, of a new reading."""
-        distance, fresh = self._readings.ground()
+        distance, fresh = self.readings.ground()
         if self._flow is not None and math.isfinite(distance):
             truth = self._truth.read(forces=False)
             self._flow.add(truth.rates, truth.velocity_frd, distance, 1 / RATE)

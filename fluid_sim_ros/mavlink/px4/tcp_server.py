@@ -140,6 +140,45 @@ class TcpServer:
             return f'{self.peer} is silent, and another speaks'
         return ''
 
+    @property
+    def socket(self) -> int:
+        """File descriptor of the client's connection; -1 without one."""
+        return -1 if self._client is None else self._client.fileno()
+
+    @property
+    def held(self) -> bool:
+        """Whether something is still to be sent before all else."""
+        return bool(self._backlog)
+
+    def asked(self, when: float) -> None:
+        """
+        Note that somebody else has sent to the client, which now owes a word.
+
+        Parameters
+        ----------
+        when
+            [s].
+
+        """
+        if self._asked_at is None:
+            self._asked_at = when
+
+    def heard(self) -> None:
+        """Note that somebody else has read what the client has said."""
+        self._spoke, self._asked_at = True, None
+
+    def keep(self, data: bytes) -> None:
+        """
+        Keep what the client did not take, to be sent first next time.
+
+        Parameters
+        ----------
+        data
+            The rest of what was sent.
+
+        """
+        self._backlog = data
+
     def send(self, data: bytes = b'') -> None:
         """
         Send bytes; what the client does not take yet is kept and sent first next time.
@@ -194,7 +233,7 @@ class TcpServer:
         if not data:
             self.disconnect()
             return None
-        self._spoke, self._asked_at = True, None
+        self.heard()
         return data
 
     def disconnect(self) -> None:

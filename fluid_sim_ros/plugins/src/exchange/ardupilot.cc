@@ -5,12 +5,13 @@
 // The same bytes as mavlink/ardupilot/json_state.py and json_packets.py write; see there for units
 // and axes. Numbers are written as printf writes them, whatever the process's locale.
 
+#include "exchange/ardupilot.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "api/api.h"
-#include "exchange/instruments.h"
 #include "shared/numbers.h"
 
 namespace fluid_sim {
@@ -106,28 +107,8 @@ void Euler(const double* q, double* angles) {
 }
 
 }  // namespace
-}  // namespace fluid_sim
 
-using namespace fluid_sim;
-
-// What a reply is made from; what a vehicle lacks is null.
-struct ArduPilotState {
-  Carrier carrier;
-  Instrument *airspeed, *rangefinder;
-  int64_t aerial;           // it meets wind
-  double sea_density;       // of the standard atmosphere at sea level [kg/m^3]
-  double indicated;         // airspeed of the last reading [m/s]
-  double distance;          // of the last reading [m]
-  int64_t channels;         // of the radio control: 0 for none
-  int64_t pulses[18];       // [us]
-  int64_t metered;          // there is a battery
-  double voltage, current;  // [V], [A]
-};
-
-// Write the reply for the time `time_s` by the autopilot's clock. Returns its size, 0 where it
-// does not fit, or -1 - i where instrument i (airspeed, rangefinder) first needs its noise.
-FSR_API int fsr_ardupilot_state(ArduPilotState* s, int64_t tick, double time_s, char* text,
-                                int64_t capacity) {
+int WriteReply(ArduPilotState* s, int64_t tick, double time_s, char* text, int64_t capacity) {
   Instrument* instruments[] = {s->airspeed, s->rangefinder};
   for (int i = 0; i < 2; ++i) {
     if (instruments[i] && !Look(s->carrier, instruments[i], tick)) return -1 - i;
@@ -196,4 +177,13 @@ FSR_API int fsr_ardupilot_state(ArduPilotState* s, int64_t tick, double time_s, 
   }
   out << "}\n";
   return out.size();
+}
+
+}  // namespace fluid_sim
+
+using namespace fluid_sim;
+
+FSR_API int fsr_ardupilot_state(ArduPilotState* s, int64_t tick, double time_s, char* text,
+                                int64_t capacity) {
+  return WriteReply(s, tick, time_s, text, capacity);
 }

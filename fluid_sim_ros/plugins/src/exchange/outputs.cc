@@ -2,26 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // From an autopilot's outputs to commands, as mavlink/actuator_map.py turns them.
 
+#include "exchange/outputs.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "api/api.h"
 
 namespace fluid_sim {
-
-enum CurveKind : int64_t { kShare, kRotorSpeed, kT200 };
-
-struct OutputCurve {
-  int64_t place;                   // of the output, from 0
-  int64_t kind;                    // CurveKind
-  int64_t reversed, silent;        // acts backwards; an output of 0 is off
-  double rest, ahead, back;        // value at rest, shares of full command per value
-  double low, high;                // limits of the command
-  const double *pulses, *thrusts;  // table of a T200: [us], [N]
-  int64_t points;                  // of the table
-};
-
 namespace {
 
 // y at x between points; the first and the last y beyond them.
@@ -48,7 +36,41 @@ double Command(const OutputCurve& c, double value) {
   return share * (share >= 0 ? c.high : -c.low);
 }
 
+bool Finite(const double* values, int64_t n) {
+  for (int64_t i = 0; i < n; ++i) {
+    if (!std::isfinite(values[i])) return false;
+  }
+  return true;
+}
+
+// Saturate and write n finite commands; returns how many were beyond the limits.
+int Write(const double* commands, int64_t n, const double* limits, const double* scale,
+          const int64_t* ids, double* control) {
+  int beyond = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    const double command = std::min(std::max(commands[i], limits[i]), limits[n + i]);
+    beyond += command != commands[i];
+    control[ids[i]] = scale ? command / scale[i] : command;
+  }
+  return beyond;
+}
+
+int Write(const Controls& c, const double* commands) {
+  return Write(commands, c.count, c.limits, c.scale, c.ids, c.control);
+}
+
 }  // namespace
+
+bool Drive(Driven* d) {
+  const int64_t count = d->thrusters.count + d->joints.count;
+  for (int64_t i = 0; i < count; ++i) {
+    d->commands[i] = Command(d->curves[i], d->outputs[d->curves[i].place]);
+  }
+  if (!Finite(d->commands, count)) return false;
+  d->beyond = Write(d->thrusters, d->commands) + Write(d->joints, d->commands + d->thrusters.count);
+  return true;
+}
+
 }  // namespace fluid_sim
 
 using namespace fluid_sim;
@@ -64,14 +86,5 @@ FSR_API void fsr_outputs(const OutputCurve* curves, int n, const double* outputs
 // not finite; then nothing is written.
 FSR_API int fsr_command(const double* commands, int n, const double* limits, const double* scale,
                         const int64_t* ids, double* control) {
-  for (int i = 0; i < n; ++i) {
-    if (!std::isfinite(commands[i])) return -1;
-  }
-  int beyond = 0;
-  for (int i = 0; i < n; ++i) {
-    const double command = std::min(std::max(commands[i], limits[i]), limits[n + i]);
-    beyond += command != commands[i];
-    control[ids[i]] = scale ? command / scale[i] : command;
-  }
-  return beyond;
+  return Finite(commands, n) ? Write(commands, n, limits, scale, ids, control) : -1;
 }

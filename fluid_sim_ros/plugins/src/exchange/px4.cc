@@ -5,11 +5,12 @@
 // The same bytes as mavlink/px4/hil_state.py and hil_messages.py write; see there for units, axes
 // and rates. https://mavlink.io/en/messages/common.html has the fields.
 
+#include "exchange/px4.h"
+
 #include <cmath>
 
 #include "api/api.h"
 #include "exchange/frame.h"
-#include "exchange/instruments.h"
 
 namespace fluid_sim {
 namespace {
@@ -25,29 +26,9 @@ constexpr uint32_t kImuBits = 0x03F, kFieldBits = 0x1C0, kPressureBits = 0x1A00,
 constexpr double kGauss = 1e4, kHectopascal = 1e-2, kCelsius = -273.15;
 
 }  // namespace
-}  // namespace fluid_sim
 
-using namespace fluid_sim;
-
-// What HIL_SENSOR is made from; instruments that a vehicle lacks are null.
-struct Px4Sensors {
-  Carrier carrier;
-  Instrument *imu, *magnetometer, *barometer, *airspeed;
-  int64_t given;       // the pressure below is sent instead of the barometer's
-  double pressure[3];  // [Pa], altitude that has it [m], temperature [K]
-};
-
-// What one HIL_ACTUATOR_CONTROLS says.
-struct Px4Answer {
-  uint64_t time_us, flags;
-  double controls[16];
-  int64_t mode;
-};
-
-// Write HIL_SENSOR of the readings at `tick` to `frame` (at least 80 bytes). Returns its size, or
-// -1 - i where instrument i (in the order of Px4Sensors) first needs the noise of its block.
-FSR_API int fsr_px4_sensors(Px4Sensors* s, int64_t tick, uint64_t time_us, int sequence, int system,
-                            int component, uint8_t* frame) {
+int WriteSensors(Px4Sensors* s, int64_t tick, uint64_t time_us, int sequence, int system,
+                 int component, uint8_t* frame) {
   Instrument* instruments[] = {s->imu, s->magnetometer, s->barometer, s->airspeed};
   for (int i = 0; i < 4; ++i) {
     if (instruments[i] && !Look(s->carrier, instruments[i], tick)) return -1 - i;
@@ -89,16 +70,15 @@ FSR_API int fsr_px4_sensors(Px4Sensors* s, int64_t tick, uint64_t time_us, int s
                     static_cast<uint8_t>(system), static_cast<uint8_t>(component));
 }
 
-// Read bytes that may be one whole, sound, unsigned HIL_ACTUATOR_CONTROLS; returns whether.
-FSR_API int fsr_px4_answer(const uint8_t* data, int64_t size, Px4Answer* out) {
+bool ReadAnswer(const uint8_t* data, int64_t size, Px4Answer* out) {
   const int64_t payload = size - kHead - kChecksum;
-  if (payload < 1 || payload > kControlsSize) return 0;
-  if (data[0] != kMagic || data[1] != payload || data[2] != 0) return 0;
+  if (payload < 1 || payload > kControlsSize) return false;
+  if (data[0] != kMagic || data[1] != payload || data[2] != 0) return false;
   const uint32_t message = data[7] | data[8] << 8 | static_cast<uint32_t>(data[9]) << 16;
-  if (message != kHilActuatorControls) return 0;
+  if (message != kHilActuatorControls) return false;
   const uint8_t* end = data + size - kChecksum;
   if (Get<uint16_t>(&end) != Checksum(data + 1, static_cast<int>(size) - 3, kControlsExtra)) {
-    return 0;
+    return false;
   }
   uint8_t whole[kControlsSize] = {};
   std::memcpy(whole, data + kHead, payload);
@@ -107,5 +87,18 @@ FSR_API int fsr_px4_answer(const uint8_t* data, int64_t size, Px4Answer* out) {
   out->flags = Get<uint64_t>(&at);
   for (double& control : out->controls) control = Get<float>(&at);
   out->mode = Get<uint8_t>(&at);
-  return 1;
+  return true;
+}
+
+}  // namespace fluid_sim
+
+using namespace fluid_sim;
+
+FSR_API int fsr_px4_sensors(Px4Sensors* s, int64_t tick, uint64_t time_us, int sequence, int system,
+                            int component, uint8_t* frame) {
+  return WriteSensors(s, tick, time_us, sequence, system, component, frame);
+}
+
+FSR_API int fsr_px4_answer(const uint8_t* data, int64_t size, Px4Answer* out) {
+  return ReadAnswer(data, size, out);
 }
