@@ -59,8 +59,8 @@ class UsualExchange:
         readings = state.readings
         self.usable = isinstance(readings, CompiledReadings)
         self._all = Px4Exchange(
-            observer=Observer(*simulation.observe_addresses), period=period, peer=Peer(socket=-1, alone=is_alone()),
-            driven=ctypes.addressof(actuators.driven),
+            observer=Observer(*simulation.observe_addresses), period=period,
+            peer=Peer(socket=-1, alone=is_alone()), driven=ctypes.addressof(actuators.driven),
             battery=ctypes.addressof(battery.state) if battery else None,
         )  # fmt: skip
         if isinstance(readings, CompiledReadings):
