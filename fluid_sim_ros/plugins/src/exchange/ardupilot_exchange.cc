@@ -109,9 +109,10 @@ FSR_API int fsr_ardupilot_connected(ArduPilotExchange* x) {
   return connected;
 }
 
-// Ask ArduPilot and hear it, or one of both (`phases`, kObserved: the caller has observed): the state of `tick` at `time_s` by its
-// clock goes out, and the packet of frame `count` is waited for for `patience` [s]. Returns a
-// Found, or -1 - i where instrument i first needs its noise; then nothing was sent.
+// Ask ArduPilot and hear it, or one of both (`phases`, kObserved: the caller has observed): the
+// state of `tick` at `time_s` by its clock goes out, and the packet of frame `count` is waited for
+// for `patience` [s]. Returns a Found, or -1 - i where instrument i first needs its noise; then
+// nothing was sent.
 FSR_API int fsr_ardupilot_exchange(ArduPilotExchange* x, int64_t phases, int64_t tick,
                                    double time_s, int64_t count, double patience) {
   if (phases & kAsk) {
