@@ -59,11 +59,8 @@ class Simulation:
         Vehicle name -> names of the fluid terms that can act on it.
     warnings
         The ``WarningLog`` of the run: what was found at load, and by watchdogs.
-    observe_addresses
-        What ``observe`` hands to the library, for ``plugins.tick`` and ``plugins.exchange``.
-    control_ports
-        Method that returns where the compiled exchange with an autopilot writes commands; see
-        ``Commands``.
+    observe_addresses, control_ports
+        What ``observe`` hands to the library, and where that writes an autopilot's commands.
     observe, largest, energy_balance
         Methods that return the vehicles as rows of numbers, a watch of their largest values, and
         what the integrator does to the energy; see ``Engine``.
@@ -102,7 +99,6 @@ class Simulation:
         )
         self.model, self.data, self.observed = engine.model, engine.data, engine.observed
         self._engine_step, self.observe = engine.step, engine.observe
-        self.observe_addresses = engine.observe_addresses
         self.energy_balance, self.largest = engine.energy_balance, engine.largest
         self.stages = engine.stages
         self.wrench = VehicleWrenches(engine, tuple(compiled.vehicles)).wrench
@@ -118,8 +114,8 @@ class Simulation:
         self._streams, self._in_steps = commands.streams, commands.in_steps
         self.streams, self.flow_source = self._streams.available, self._streams.source
         self.vehicle, self.apply = commands.vehicle, commands.apply
+        self.observe_addresses, self.control_ports = engine.observe_addresses, commands.control_ports
         self.set_thrust, self.set_joints = commands.set_thrust, commands.set_joints
-        self.control_ports = commands.control_ports
         self.set_wind, self.set_current = commands.set_wind, commands.set_current
         self.enable_wind, self.set_wrench = commands.enable_wind, commands.set_wrench
         if unfelt is not None:
