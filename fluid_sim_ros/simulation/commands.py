@@ -96,7 +96,7 @@ class Commands:
                 f'it has: {listed(self._vehicles)}'
             ) from None
 
-    def control_ports(self, vehicle: str) -> tuple[ControlPorts, ControlPorts]:
+    def ports(self, vehicle: str) -> tuple[ControlPorts, ControlPorts]:
         """
         Return where the compiled exchange with an autopilot writes to.
 

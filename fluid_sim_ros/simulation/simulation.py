@@ -114,7 +114,7 @@ class Simulation:
         self._streams, self._in_steps = commands.streams, commands.in_steps
         self.streams, self.flow_source = self._streams.available, self._streams.source
         self.vehicle, self.apply = commands.vehicle, commands.apply
-        self.observe_addresses, self.control_ports = engine.observe_addresses, commands.control_ports
+        self.observe_addresses, self.control_ports = engine.observe_addresses, commands.ports
         self.set_thrust, self.set_joints = commands.set_thrust, commands.set_joints
         self.set_wind, self.set_current = commands.set_wind, commands.set_current
         self.enable_wind, self.set_wrench = commands.enable_wind, commands.set_wrench
