@@ -5,7 +5,8 @@
 from typing import Any
 
 from fluid_sim_ros.errors import printable
-from fluid_sim_ros.flights.consistency import Check, check_flight
+from fluid_sim_ros.flights.check import Check
+from fluid_sim_ros.flights.consistency import check_flight
 from fluid_sim_ros.flights.flight import ACTUATORS, QUANTITIES, Flight, FlightError, Signal
 
 
@@ -80,8 +81,8 @@ def refuse_unclear(flight: Flight) -> list[str]:
     """
     Refuse a flight whose signals contradict each other; return what is odd but stated so.
 
-    A unit, an order or axes that the mapping states are taken as they are said; a finding on them
-    is a line to show. One that nobody stated is asked about.
+    A unit, an order or axes that the mapping states are taken as they are said; a finding on them,
+    or one that may be right, is a line to show. One that nobody stated is asked about.
 
     Parameters
     ----------
@@ -104,7 +105,8 @@ def refuse_unclear(flight: Flight) -> list[str]:
         if not check.finding:
             continue
         signal = flight.signals[check.quantity]
-        if '?' in signal.stated or 'order' in check.finding.partition(';')[0]:
+        asked = '?' in signal.stated or 'order' in check.finding.partition(';')[0]
+        if check.sure and asked:
             raise FlightError(f'{flight.raw.path}: {check.finding}')
         lines.append(check.finding)
     return lines

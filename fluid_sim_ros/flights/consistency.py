@@ -10,73 +10,32 @@ which needs no derivative of a noisy signal.
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fluid_sim_ros.flights.flight import Flight, Signal
-from fluid_sim_ros.flights.units import rotations
+from fluid_sim_ros.flights.check import LAGS, Check
+from fluid_sim_ros.flights.flight import STATE, Flight, Signal
+from fluid_sim_ros.flights.plausible import drive, pace, size, upright
+from fluid_sim_ros.flights.readings import best_reading, other_axes
+from fluid_sim_ros.flights.units import BODY, WORLD, rotations, to_enu, to_flu
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 #: Length of an interval [s], and at least so many samples of the slower signal.
 _INTERVAL, _SAMPLES = {'velocity': 0.5, 'rates': 0.2, 'specific_force': 0.5}, 4
 _MOST_INTERVALS = 4000
 #: So many of them are looked at from the beginning on, half a day at the usual length.
 _MOST_BEGINS = 1_000_000
-#: Shares of the change that two signals may differ by: they agree; no other reading is better.
-_AGREE, _BETTER = 0.35, 0.5
+#: Shares of the change that two signals may differ by: they agree; without a doubt [-].
+_AGREE, _DOUBTFUL = 0.35, 0.03
 #: Less motion than this tells nothing: [m], [rad], [m/s] rms over an interval.
 _LEAST = {'velocity': 0.1, 'rates': 0.02, 'specific_force': 0.1}
 #: Turn over an interval [rad].
 _SMALL_TURN = 0.7
-#: Clock offsets that are tried [s].
-_LAGS = np.arange(-0.3, 0.3001, 0.005)
-#: Factors that a wrong unit makes, and the unit that then stands in the log.
-_FACTORS = {
-    'rates': {np.pi / 180: 'deg/s', 180 / np.pi: 'rad/s, not deg/s'},
-    'specific_force': {GRAVITY: 'g', 1 / GRAVITY: 'm/s^2, not g'},
-    'velocity': {
-        0.01: 'cm/s',
-        0.001: 'mm/s',
-        1 / 3.6: 'km/h',
-        0.514444: 'kn',
-        0.3048: 'ft/s',
-        100.0: 'position in cm',
-        1000.0: 'position in mm',
-        1 / 0.3048: 'position in ft',
-    },
-}
-_NAMES = 'xyz'
-#: Rates that are logged less often than this tell nothing of a flight [s].
-_SELDOM = 1.0
-
-
-@dataclass(frozen=True)
-class Check:
-    """
-    One pair of signals.
-
-    Attributes
-    ----------
-    what
-        The pair in words.
-    quantity
-        The signal that is checked.
-    error
-        What of the change is not explained, as a share [-]; None: too little motion to tell.
-    offset
-        The checked signal's clock minus that of the other [s], where it can be told.
-    finding
-        What is wrong, '' where nothing is.
-
-    """
-
-    what: str
-    quantity: str
-    error: float | None
-    offset: float | None
-    finding: str = ''
 
 
 def check_flight(flight: Flight) -> list[Check]:
@@ -95,8 +54,8 @@ def check_flight(flight: Flight) -> list[Check]:
 
     """
     signals = flight.signals
-    checks = [_pace(flight)] if 'rates' in signals else []
-    checks += [_size(flight)] if 'specific_force' in signals else []
+    checks = [pace(flight)] if set(STATE) & set(signals) else []
+    checks += [size(flight)] if 'specific_force' in signals else []
     for of, change, words in (
         ('velocity', 'position', 'position against velocity'),
         ('rates', 'attitude', 'attitude against rates'),
@@ -105,43 +64,20 @@ def check_flight(flight: Flight) -> list[Check]:
         needed = {of, change} | ({'attitude'} if of == 'specific_force' else set())
         if needed <= set(signals):
             checks.append(_pair(flight, of, change, words))
+    if {'specific_force', 'attitude'} <= set(signals) and not any(c.finding for c in checks):
+        checks.append(upright(flight))
     driving = flight.actuators
     if driving is not None and 'specific_force' in signals:
-        checks.append(_drive(driving, signals['specific_force']))
+        checks.append(drive(driving, signals['specific_force']))
     return checks
-
-
-def _pace(flight: Flight) -> Check:
-    """Look at how often rates were logged: so seldom is a clock in another unit."""
-    apart = float(np.median(np.diff(flight.signals['rates'].times)))
-    unit = next((u for u, longest in (('us', 1e3), ('ms', _SELDOM)) if apart > longest), '')
-    finding = unit and (
-        f'rates: its samples are {apart:.4g} s apart; the time looks like {unit}: say time: '
-        f'{{unit: {unit}}} in the mapping of a table'
-    )
-    return Check('pace of the rates', 'rates', None, None, finding)
-
-
-def _size(flight: Flight) -> Check:
-    """Look at the size of the specific force, which is about g whatever a vehicle does."""
-    force = flight.signals['specific_force']
-    size = float(np.median(np.linalg.norm(force.values, axis=1)))
-    finding = ''
-    if not 0.5 * GRAVITY < size < 2 * GRAVITY:
-        like = 'g' if 0.5 < size < 2 else ''
-        finding = (
-            f'specific_force: its median is {size:.3g} m/s^2, about {GRAVITY:.3g} is usual'
-            + (f'; it looks like {like}: say unit: {like} in the mapping' if like else '')
-        )
-    return Check('size of the specific force', 'specific_force', None, None, finding)
 
 
 def _intervals(first: Signal, second: Signal, length: float) -> tuple[Array, Array]:
     """Return begin and end [s] of intervals that both signals cover."""
     slow = min(first.rate, second.rate)
     length = max(length, _SAMPLES / slow if slow > 0 else length)
-    low = max(first.times[0], second.times[0]) + _LAGS[-1]
-    high = min(first.times[-1], second.times[-1]) - _LAGS[-1]
+    low = max(first.times[0], second.times[0]) + LAGS[-1]
+    high = min(first.times[-1], second.times[-1]) - LAGS[-1]
     most = low + _MOST_BEGINS * length / 2  # times of a log may be far apart
     begins = np.arange(low, min(high - length, most), length / 2)
     begins = begins[:: max(1, len(begins) // _MOST_INTERVALS)]
@@ -194,8 +130,7 @@ def _pair(flight: Flight, of: str, change: str, words: str) -> Check:
         return Check(words, of, None, None)
     values = signal.values
     if of == 'specific_force':
-        attitude = flight.signals['attitude'].between(signal.times)
-        values = rotations(attitude).apply(values)
+        values = _to_world(flight, signal.times).apply(values)
     integral = _summed(signal, values)
     moved = _change(flight, of, change, begins, ends)
     if of == 'rates':  # the sum of rates is a rotation vector for small turns only
@@ -206,11 +141,64 @@ def _pair(flight: Flight, of: str, change: str, words: str) -> Check:
     moving = moved - moved.mean(axis=0) if of == 'specific_force' else moved
     if float(np.sqrt((moving**2).sum(axis=1).mean())) < _LEAST[of]:
         return Check(words, of, None, None)
-    summed = integral(begins, ends)
-    error = _error(moving, summed, of)
-    if error < _AGREE:
-        return Check(words, of, error, _offset(moving, integral, begins, ends, of))
-    return Check(words, of, error, None, _finding(flight, of, change, moving, summed, error))
+    error = _error(moving, integral(begins, ends), of)
+    finding = ''
+    if of == 'velocity' and error > _DOUBTFUL:
+        finding = _other_axes(flight, moving, begins, ends, error)
+    offset = _offset(moving, integral, begins, ends, of)
+    if error >= _AGREE:
+        there = _error(moving, integral(begins + offset, ends + offset), of)
+        if not finding and there < _AGREE and abs(offset) < LAGS[-1]:
+            finding = (
+                f'{of}: it is the change of {change} {1e3 * abs(offset):.0f} ms '
+                f'{"later" if offset > 0 else "earlier"}; their clocks differ: say offset: '
+                f'{-offset:.3g} at {of}, or {offset:.3g} at {change}, in the mapping'
+            )
+        finding = finding or _finding(flight, of, change, (moving, begins, ends), error)
+    return Check(words, of, error, None if finding else offset, finding)
+
+
+def _to_world(flight: Flight, times: Array) -> 'Rotation':
+    return rotations(flight.signals['attitude'].between(times))
+
+
+def _other_axes(flight: Flight, moved: Array, begins: Array, ends: Array, error: float) -> str:
+    """Return what is said of a velocity that fits better in the body's axes, or the world's."""
+    signal = flight.signals['velocity']
+    if 'attitude' not in flight.signals:
+        return ''
+    world, stated = _to_world(flight, signal.times), signal.stated.rpartition(' ')[2]
+    if stated in BODY:  # it was turned: as it stands in the log
+        raw = to_flu(world.inv().apply(signal.values), stated)
+        tried = {axes: to_enu(raw, axes) for axes in WORLD}
+    else:
+        raw = to_enu(signal.values, stated)
+        tried = {axes: world.apply(to_flu(raw, axes)) for axes in BODY}
+    sums = {axes: _summed(signal, values)(begins, ends) for axes, values in tried.items()}
+    axes = other_axes(stated, moved, sums, error, lambda m, s: _error(m, s, 'velocity'))
+    if not axes:
+        return ''
+    of = 'body' if axes in BODY else 'world'
+    return (
+        f'velocity: {100 * error:.0f} % of the change of position is unexplained; it looks like '
+        f'a velocity along the axes of the {of}: say axes: {axes} at velocity in the mapping'
+    )
+
+
+def _finding(
+    flight: Flight, of: str, change: str, intervals: tuple[Array, Array, Array], error: float
+) -> str:
+    """Return the reading of the log under which two signals would agree, as a line."""
+    moved, begins, ends = intervals
+    parts = _parts(flight, of, begins, ends)
+    reading = best_reading(of, moved, parts, error, lambda m, s: _error(m, s, of))
+    other = _other_attitude(flight) if of == 'rates' else ''
+    if other:
+        return f'attitude: it does not turn as the rates say, but does {other}'
+    begin = f'{of}: it is not the change of {change} ({100 * error:.0f} % of it unexplained)'
+    if reading:
+        return f'{begin}; it looks like {reading}: see unit and axes in the mapping'
+    return f'{begin}; see unit, axes and order in the mapping'
 
 
 def _error(moved: Array, summed: Array, of: str) -> float:
@@ -224,78 +212,49 @@ def _offset(
     moved: Array, integral: Callable[[Array, Array], Array], begins: Array, ends: Array, of: str
 ) -> float:
     """Return the offset of the clocks at which two signals agree best [s]."""
-    errors = np.array([_error(moved, integral(begins + x, ends + x), of) for x in _LAGS])
+    errors = np.array([_error(moved, integral(begins + x, ends + x), of) for x in LAGS])
     best = int(np.argmin(errors))
     if 0 < best < len(errors) - 1:
         before, here, after = errors[best - 1 : best + 2] ** 2
         bend = before - 2 * here + after
         if bend > 0:
-            return float(_LAGS[best] + 0.5 * (before - after) / bend * (_LAGS[1] - _LAGS[0]))
-    return float(_LAGS[best])
+            return float(LAGS[best] + 0.5 * (before - after) / bend * (LAGS[1] - LAGS[0]))
+    return float(LAGS[best])
 
 
-def _finding(
-    flight: Flight, of: str, change: str, moved: Array, summed: Array, error: float
-) -> str:
-    """Return the reading of the log under which two signals would agree, as a line."""
-    readings = []
-    for order in itertools.permutations(range(3)):
-        for signs in itertools.product((1, -1), repeat=3):
-            for factor, unit in ((1.0, ''), *_FACTORS[of].items()):
-                turned = factor * summed[:, order] * np.array(signs)
-                plain = order == (0, 1, 2) and signs == (1, 1, 1)
-                axes = ' '.join(
-                    f'{"-" if s < 0 else ""}{_NAMES[i]}' for s, i in zip(signs, order, strict=True)
-                )
-                words = [unit if ' in ' in unit else f'unit {unit}'] * bool(unit) + [
-                    f'axes {axes}'
-                ] * (not plain)
-                # the simpler reading wins where two fit alike
-                rank = _error(moved, turned, of) + 0.02 * len(words)
-                readings.append((rank, ' and '.join(words)))
-    best, reading = min(readings)
-    if of == 'rates':
-        swapped = _swapped(flight)
-        if swapped < min(best, _AGREE):
-            return (
-                'attitude: it does not turn as the rates say, but does with the other order of '
-                'its quaternions; see order: wxyz or xyzw in the mapping'
-            )
-    begin = f'{of}: it is not the change of {change} ({100 * error:.0f} % of it unexplained)'
-    if reading and best < _BETTER * min(error, 1.0):
-        return f'{begin}; it looks like {reading}: see unit and axes in the mapping'
-    return f'{begin}; see unit, axes and order in the mapping'
+def _parts(flight: Flight, of: str, begins: Array, ends: Array) -> Array:
+    """Return each column of a signal summed up along each of its axes, shape (n, 3, 3, 3)."""
+    signal = flight.signals[of]
+    parts = np.zeros((len(begins), 3, 3, 3))
+    if of != 'specific_force':
+        summed = _summed(signal, signal.values)(begins, ends)
+        for k in range(3):
+            parts[:, k, k] = summed
+        return parts
+    axes = _to_world(flight, signal.times).as_matrix()
+    for k, j in itertools.product(range(3), repeat=2):
+        parts[:, :, k, j] = _summed(signal, axes[:, :, k] * signal.values[:, j : j + 1])(
+            begins, ends
+        )
+    return parts
 
 
-def _swapped(flight: Flight) -> float:
-    """Return the error of the rates with the quaternions read in the other order."""
+def _other_attitude(flight: Flight) -> str:
+    """Return with which other reading of the quaternions the attitude turns as the rates say."""
     attitude, rates = flight.signals['attitude'], flight.signals['rates']
     begins, ends = _intervals(rates, attitude, _INTERVAL['rates'])
     summed = _summed(rates, rates.values)(begins, ends)
+    swapped = 'with the other order of its quaternions; see order: wxyz or xyzw in the mapping'
+    inverse = 'as the inverse, of the world in the body: conjugate its quaternions'
+    tried = (
+        (np.roll(attitude.values, 1, axis=1), swapped),
+        (np.roll(attitude.values, -1, axis=1), swapped),
+        (attitude.values * np.array([1.0, -1.0, -1.0, -1.0]), inverse),
+    )
     errors = []
-    for shift in (1, -1):
-        rolled = Signal(**{**attitude.__dict__, 'values': np.roll(attitude.values, shift, axis=1)})
-        pairs = np.stack([rolled.between(begins), rolled.between(ends)], axis=1)
-        errors.append(_error(_turns(pairs), summed, 'rates'))
-    return min(errors)
-
-
-def _drive(driving: Signal, force: Signal) -> Check:
-    """Return how far the specific force along z comes after what drives it."""
-    words = f'specific force along z after {driving.quantity}'
-    low = max(driving.times[0], force.times[0]) + _LAGS[-1]
-    high = min(driving.times[-1], force.times[-1]) - _LAGS[-1]
-    rate = min(driving.rate, force.rate, 200.0)
-    if rate <= 0 or high - low < 2.0:
-        return Check(words, driving.quantity, None, None)
-    times = np.arange(low, min(high, low + 200_001 / rate), 1 / rate)[:200_000]
-    shared = force.between(times)[:, 2]
-    power = 2 if driving.quantity in ('rotor_speed', 'normalized', 'pulse') else 1
-    given = (np.nan_to_num(driving.values) ** power).sum(axis=1)
-    turns = [np.interp(times - x, driving.times, given) for x in _LAGS]
-    if min(np.ptp(turn) for turn in turns) == 0 or np.ptp(shared) == 0:
-        return Check(words, driving.quantity, None, None)
-    alike = [np.corrcoef(turn, shared)[0, 1] for turn in turns]
-    best = int(np.argmax(alike))
-    error = float(np.sqrt(max(0.0, 1 - alike[best] ** 2)))
-    return Check(words, driving.quantity, error, float(_LAGS[best]) if error < 0.8 else None)
+    for values, words in tried:
+        other = Signal(**{**attitude.__dict__, 'values': values})
+        pairs = np.stack([other.between(begins), other.between(ends)], axis=1)
+        errors.append((_error(_turns(pairs), summed, 'rates'), words))
+    least, words = min(errors)
+    return words if least < _AGREE else ''

@@ -4,9 +4,11 @@
 
 import csv
 import io
+import itertools
 import math
+import re
 from array import array
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,10 @@ from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.limits import beyond, check_limit, expanded_size, limit
 
 STREAM = 'table'
+#: What separates cells; where it is no comma, that may be the sign of decimals.
+_MARKS = (',', ';', '\t')
+#: How a line of numbers begins.
+_NUMBER = re.compile(r'\s*[-+.]?[0-9]')
 #: Names of the column of time, and their units.
 _TIMES = {'time': 's', 't': 's', 'time_s': 's', 'time_ms': 'ms', 'time_us': 'us', 'time_ns': 'ns'}
 
@@ -65,14 +71,30 @@ def _csv(path: Path) -> dict[str, Array]:
     check_limit('csv_bytes', path.stat().st_size, f'{path}: size')
     try:
         with open_data(path) as file, io.TextIOWrapper(file, 'utf-8-sig', newline='') as lines:
-            return _columns(csv.reader(lines), path)
+            head, mark = _head(lines)
+            rows = csv.reader(itertools.chain(head, lines), delimiter=mark)
+            return _columns(rows, path, mark)
     except UnicodeDecodeError as error:
         raise FlightError(f'{path}: not UTF-8: byte {error.start}') from None
     except csv.Error as error:
         raise FlightError(f'{path}: no CSV: {error}') from None
 
 
-def _columns(rows: Iterator[list[str]], path: Path) -> dict[str, Array]:
+def _head(lines: Iterator[str]) -> tuple[list[str], str]:
+    """
+    Return the first lines of a table, the one of names first, and what separates cells.
+
+    Remarks (``#``) before it are passed over, but the last one names the columns where numbers
+    follow it, as numpy writes a table.
+    """
+    remark, line = '', next(lines, '')
+    while line.startswith('#'):
+        remark, line = line.lstrip('# '), next(lines, '')
+    first = [remark, line] if remark and _NUMBER.match(line) else [line]
+    return first, max(_MARKS, key=first[0].count)
+
+
+def _columns(rows: Iterator[list[str]], path: Path, mark: str) -> dict[str, Array]:
     """Return the columns of a table, row by row: texts of numbers take much memory."""
     names = [name.strip() for name in next(rows, [])]
     if not names:
@@ -91,7 +113,9 @@ def _columns(rows: Iterator[list[str]], path: Path) -> dict[str, Array]:
             raise FlightError(
                 f'{path}: row {count + 1} has {len(row)} cells, the first line names {len(names)}'
             )
-        cells = zip(row, names, strict=True)
+        cells: Iterable[tuple[str, str]] = zip(row, names, strict=True)
+        if mark != ',':
+            cells = ((cell.replace(',', '.'), name) for cell, name in cells)
         numbers.extend(_number(cell, path, count + 1, name) for cell, name in cells)
     table = np.frombuffer(numbers, dtype=np.float64).reshape(count, len(names))
     return {name: table[:, i].copy() for i, name in enumerate(names)}

@@ -23,6 +23,7 @@ from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.residuals import Residuals, residuals, summary
 from fluid_sim_ros.reality.spinning import first_speeds, lead_in
+from fluid_sim_ros.reality.thruster_order import likely_order
 from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity
 from fluid_sim_ros.schema.settings import RunSettings
 
@@ -135,7 +136,7 @@ def compare(
             for name, what in BASELINES.items()
         },
         'residuals': off,
-        'words': words(off) + _against(horizons, found),
+        'words': words(off, likely_order(along, flyer, flight)) + _against(horizons, found),
         'notes': [
             *odd, *driven.notes, *sparse_lines(flight), *flight.notes, *flight.raw.faults,
         ],

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What residuals say, in sentences for people."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from fluid_sim_ros.errors import listed
@@ -16,9 +17,10 @@ _LEAST = 0.02
 _ANOTHER = 1.6
 #: A model that turns by less says nothing of the order of its thrusters [rad/s^2].
 _TURNS = 1.0
+_TURNED = tuple(zip(AXES, ('roll', 'pitch', 'yaw'), strict=True))
 
 
-def words(numbers: dict[str, Any]) -> list[str]:
+def words(numbers: dict[str, Any], order: Sequence[str] = ()) -> list[str]:
     """
     Return what the residuals say, for people.
 
@@ -26,9 +28,16 @@ def words(numbers: dict[str, Any]) -> list[str]:
     ----------
     numbers
         As ``summary`` returns them.
+    order
+        Of the thrusters, as ``likely_order`` returns it.
 
     """
     lines: list[str] = []
+    if order:
+        lines.append(
+            'the vehicle moves as if its thrusters were in another order: say thrusters: '
+            f'[{", ".join(order)}] in the mapping'
+        )
     force = numbers.get('specific_force')
     if force is None:
         lines.append('no accelerometer in the log: nothing can be said of the forces by axis')
@@ -45,19 +54,28 @@ def words(numbers: dict[str, Any]) -> list[str]:
             f'specific force along z: {100 * force["z_rms_of_g"]:.1f} % of g off (rms over '
             f'{1e3 * AVERAGE:.0f} ms)'
         )
-    for axis, name in zip(AXES, ('roll', 'pitch', 'yaw'), strict=True):
-        turn = numbers['angular_acceleration']['axes'][axis]
-        if turn['scale'] is None and turn['model_rms'] > max(_TURNS, turn['measured_rms']):
-            lines.append(
-                f'in {name} the vehicle does not turn as the model would: are the thrusters in '
-                'the order of the log (thrusters: [...] in the mapping), the axes right?'
-            )
+    turns = numbers['angular_acceleration']['axes']
+    odd = [name for axis, name in _TURNED if _turns_otherwise(turns[axis])]
+    if odd and not order:
+        lines.append(
+            f'in {", ".join(odd)} the vehicle does not turn as the model would: are the thrusters '
+            'in the order of the log (thrusters: [...] in the mapping), the axes right?'
+        )
+    for axis, name in _TURNED:
+        turn = turns[axis]
         if abs(turn['mean']) > max(_CLEAR * turn['rms'], 0.05):
             lines.append(
                 f'a constant {turn["mean"]:+.2g} rad/s^2 is missing in {name}: the centre of mass '
                 'is not where the model has it, or the thrusters differ'
             )
     return [line for line in lines if line]
+
+
+def _turns_otherwise(turn: dict[str, Any]) -> bool:
+    """Return whether a model turns the other way, or clearly without being alike."""
+    if turn['scale'] is not None:
+        return bool(turn['scale'] < 0)
+    return bool(turn['model_rms'] > max(_TURNS, turn['measured_rms']))
 
 
 def _along_z(numbers: dict[str, Any], floats: bool) -> list[str]:

@@ -49,8 +49,10 @@ class Residuals:
         Velocity relative to the medium as far as it is known, body axes [m/s], shape (n, 3).
     tilt
         [rad], shape (n,).
-    drive
-        Mean of the controls' sizes, shape (n,).
+    controls
+        Of the thrusters, in the unit of the model, shape (n, m).
+    speeds
+        Of the rotors that have a lag [rad/s], shape (n, k); None where none has.
 
     """
 
@@ -61,16 +63,24 @@ class Residuals:
     turn_model: Array
     speed: Array
     tilt: Array
-    drive: Array
+    controls: Array
+    speeds: Array | None
+
+    @property
+    def drive(self) -> Array:
+        """Mean of the controls' sizes, shape (n,)."""
+        mean: Array = np.abs(self.controls).mean(axis=1)
+        return mean
 
 
 @dataclass(frozen=True)
 class Accelerations:
-    """What a model has at measured states: body axes, and the controls that drove it."""
+    """What a model has at measured states, body axes, and what its thrusters ran at."""
 
     force: Array
     turn: Array
     controls: Array
+    speeds: Array | None
 
 
 def residuals(flyer: Flyer, windows: Windows) -> Residuals:
@@ -96,17 +106,17 @@ def residuals(flyer: Flyer, windows: Windows) -> Residuals:
     model = accelerations(flyer, flight, times)
     force = np.zeros((0, 3))
     if 'specific_force' in flight.signals:
-        force = _averaged(times, flight.signals['specific_force'].between(times))
+        force = averaged(times, flight.signals['specific_force'].between(times))
     rates = flight.signals['rates'].between(times)
-    turn = np.gradient(_averaged(times, rates), times, axis=0)
+    turn = np.gradient(averaged(times, rates), times, axis=0)
     attitude = rotations(states[:, ATTITUDE])
     wind = flight.signals.get('wind')
     relative = states[:, VELOCITY] - (0.0 if wind is None else wind.between(times))
     up = attitude.apply(np.tile([0.0, 0.0, 1.0], (len(times), 1)))[:, 2]
     return Residuals(
-        times, force, _averaged(times, model.force), turn, _averaged(times, model.turn),
+        times, force, averaged(times, model.force), turn, averaged(times, model.turn),
         attitude.inv().apply(relative), np.arccos(np.clip(up, -1, 1)),
-        np.abs(model.controls).mean(axis=1),
+        model.controls, model.speeds,
     )  # fmt: skip
 
 
@@ -135,8 +145,65 @@ def accelerations(flyer: Flyer, flight: Flight, times: Array) -> Accelerations:
     taken = signal.between if driven.kind == 'rotor_speed' else signal.held
     controls = driven.controls(taken(times)[:, list(driven.columns)])
     looks = with_parts(Windows(flight, times, 0.0, {}), driven)
-    force, turn = _model(driven, states, looks, controls, first_speeds(flyer, looks, states))
-    return Accelerations(force, turn, controls)
+    speeds = first_speeds(flyer, looks, states)
+    force, turn = _model(driven, states, looks, controls, speeds)
+    return Accelerations(force, turn, controls, speeds)
+
+
+def responses(found: Residuals, flyer: Flyer, flight: Flight) -> Array | None:
+    """
+    Return what each thruster alone changes of a model's accelerations, half way through a flight.
+
+    Parameters
+    ----------
+    found
+        Along the flight.
+    flyer, flight
+        They are of.
+
+    Returns
+    -------
+    Array
+        Angular acceleration and specific force [rad/s^2, m/s^2], shape (m, 6), for one more of
+        its control, or of its rotor's speed squared [(rad/s)^2]; None where only some of the
+        rotors lag.
+
+    """
+    count = found.controls.shape[1]
+    runs = found.controls if found.speeds is None else found.speeds
+    if runs.shape[1] != count:
+        return None
+    usual = runs.mean(axis=0)
+    step = 0.01 * np.maximum(np.abs(usual), 0.1 * np.abs(runs).max(initial=1e-6))
+    tried = np.vstack([usual, usual + np.diag(step)])
+    times = np.full(count + 1, found.times[len(found.times) // 2])
+    states, looks = state_at(flight, times), Windows(flight, times, 0.0, {})
+    looks = with_parts(looks, flyer.driven)
+    controls = (
+        tried if found.speeds is None else np.tile(found.controls.mean(axis=0), (count + 1, 1))
+    )
+    force, turn = _model(
+        flyer.driven, states, looks, controls, None if found.speeds is None else tried
+    )
+    both = np.hstack([turn, force])
+    given = driving(tried, found.speeds is not None or flyer.driven.kind == 'rotor_speed')
+    change: Array = (both[1:] - both[0]) / np.diag(given[1:] - given[0])[:, None]
+    return change
+
+
+def driving(runs: Array, squared: bool) -> Array:
+    """
+    Return what forces are proportional to: controls, or rotor speeds squared.
+
+    Parameters
+    ----------
+    runs
+        Controls or speeds.
+    squared
+        Whether they are speeds.
+
+    """
+    return runs * np.abs(runs) if squared else runs
 
 
 def _times(windows: Windows) -> Array:
@@ -174,8 +241,18 @@ def _model(
     return force, turn
 
 
-def _averaged(times: Array, values: Array) -> Array:
-    """Return a running mean; the ends are averaged over what is there."""
+def averaged(times: Array, values: Array) -> Array:
+    """
+    Return a running mean over ``AVERAGE``; the ends are averaged over what is there.
+
+    Parameters
+    ----------
+    times
+        [s], shape (n,).
+    values
+        Shape (n, m).
+
+    """
     if len(times) < 3 or not len(values):
         return values
     half = max(1, round(0.5 * AVERAGE / float(np.median(np.diff(times)))))
