@@ -31,6 +31,11 @@ def pace(flight: Flight) -> Check:
     flight
         With rates, attitude, velocity or position.
 
+    Returns
+    -------
+    Check
+        With what is wrong, if anything.
+
     """
     quantity = next(
         q for q in ('rates', 'attitude', 'velocity', 'position') if q in flight.signals
@@ -56,6 +61,11 @@ def size(flight: Flight) -> Check:
     flight
         With a specific force.
 
+    Returns
+    -------
+    Check
+        With what is wrong, if anything.
+
     """
     force = flight.signals['specific_force']
     lengths = np.linalg.norm(force.values, axis=1)
@@ -78,6 +88,11 @@ def upright(flight: Flight) -> Check:
     ----------
     flight
         With a specific force and an attitude; with a velocity, its change is taken out.
+
+    Returns
+    -------
+    Check
+        With what is wrong, if anything.
 
     """
     force, attitude = flight.signals['specific_force'], flight.signals['attitude']
