@@ -21,7 +21,8 @@ from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, floats, without_air
 from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.residuals import Residuals, residuals, summary
+from fluid_sim_ros.reality.residual_numbers import summary
+from fluid_sim_ros.reality.residuals import Residuals, residuals
 from fluid_sim_ros.reality.spinning import first_speeds, lead_in
 from fluid_sim_ros.reality.thruster_order import likely_order
 from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity
