@@ -30,7 +30,7 @@ from fluid_sim_ros.reality.compare import HORIZONS, Part, compare, fly_windows
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameters import all_parameters, edit_of
-from fluid_sim_ros.reality.residuals import residuals
+from fluid_sim_ros.reality.residual.residuals import residuals
 from fluid_sim_ros.reality.windows import cut, errors
 
 FLIGHTS = ROOT.parent / 'shared' / 'reference' / 'flights'

@@ -5,8 +5,8 @@
 from typing import Any
 
 from fluid_sim_ros.errors import printable
-from fluid_sim_ros.flights.check import Check
-from fluid_sim_ros.flights.consistency import check_flight
+from fluid_sim_ros.flights.checks.check import Check
+from fluid_sim_ros.flights.checks.consistency import check_flight
 from fluid_sim_ros.flights.flight import ACTUATORS, QUANTITIES, Flight, FlightError, Signal
 
 

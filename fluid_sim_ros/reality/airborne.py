@@ -11,7 +11,7 @@ from fluid_sim_ros.flights.units import rotations
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.residuals import accelerations
+from fluid_sim_ros.reality.residual.residuals import accelerations
 from fluid_sim_ros.reality.windows import ATTITUDE, POSITION, VELOCITY, Windows, state_at
 
 #: What a model lacks of the force upward, as a share of the weight, that only a ground, a rope or

@@ -11,7 +11,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
-from fluid_sim_ros.flights.consistency import check_flight
+from fluid_sim_ros.flights.checks.consistency import check_flight
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.flights.sparse import sparse_lines
@@ -19,12 +19,12 @@ from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
 from fluid_sim_ros.reality.driven import Edit, comparable_scene, drive, floats, without_air
-from fluid_sim_ros.reality.findings import words
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.residual_numbers import summary
-from fluid_sim_ros.reality.residuals import Residuals, residuals
+from fluid_sim_ros.reality.residual.findings import words
+from fluid_sim_ros.reality.residual.numbers import summary
+from fluid_sim_ros.reality.residual.residuals import Residuals, residuals
+from fluid_sim_ros.reality.residual.thruster_order import likely_order
 from fluid_sim_ros.reality.spinning import first_speeds, lead_in
-from fluid_sim_ros.reality.thruster_order import likely_order
 from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity
 from fluid_sim_ros.schema.settings import RunSettings
 

@@ -16,8 +16,8 @@ from fluid_sim_ros.errors import printable
 from fluid_sim_ros.output.html_page import write_page
 from fluid_sim_ros.output.new_file import new_file
 from fluid_sim_ros.reality.compare import BASELINES, Comparison
-from fluid_sim_ros.reality.residual_numbers import AXES
-from fluid_sim_ros.reality.residuals import Residuals
+from fluid_sim_ros.reality.residual.numbers import AXES
+from fluid_sim_ros.reality.residual.residuals import Residuals
 
 _TEMPLATE = Path(__file__).with_name('page.html')
 #: Okabe and Ito (2008): measured, model, baselines.

@@ -7,7 +7,7 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from fluid_sim_ros.flights.consistency import check_flight
+from fluid_sim_ros.flights.checks.consistency import check_flight
 from fluid_sim_ros.flights.mapping import FlightMap
 from fluid_sim_ros.flights.reader import read_flight
 from test.support import flight_logs as logs

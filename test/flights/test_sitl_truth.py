@@ -8,7 +8,7 @@ import lzma
 import numpy as np
 import pytest
 
-from fluid_sim_ros.flights.consistency import check_flight
+from fluid_sim_ros.flights.checks.consistency import check_flight
 from fluid_sim_ros.flights.mapping import FlightMap, default_mapping
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.flights.units import rotations

@@ -14,8 +14,8 @@ from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import edit_of
-from fluid_sim_ros.reality.residual_numbers import summary
-from fluid_sim_ros.reality.residuals import residuals
+from fluid_sim_ros.reality.residual.numbers import summary
+from fluid_sim_ros.reality.residual.residuals import residuals
 from fluid_sim_ros.reality.windows import Windows
 
 #: Specific force that is off by less than this share of g needs no word, nor a growth below this

@@ -4,7 +4,7 @@
 
 import numpy as np
 
-from fluid_sim_ros.flights.check import LAGS, Check
+from fluid_sim_ros.flights.checks.check import LAGS, Check
 from fluid_sim_ros.flights.flight import Flight, Signal
 from fluid_sim_ros.flights.units import UNITS, rotations
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fluid_sim_ros.flights.check import LAGS, Check
+from fluid_sim_ros.flights.checks.check import LAGS, Check
+from fluid_sim_ros.flights.checks.plausible import drive, pace, size, upright
+from fluid_sim_ros.flights.checks.readings import best_reading, other_axes
 from fluid_sim_ros.flights.flight import STATE, Flight, Signal
-from fluid_sim_ros.flights.plausible import drive, pace, size, upright
-from fluid_sim_ros.flights.readings import best_reading, other_axes
 from fluid_sim_ros.flights.units import BODY, WORLD, rotations, to_enu, to_flu
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY

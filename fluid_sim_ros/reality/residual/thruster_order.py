@@ -8,7 +8,7 @@ import numpy as np
 
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.residuals import Residuals, averaged, driving, responses
+from fluid_sim_ros.reality.residual.residuals import Residuals, averaged, driving, responses
 
 #: Orders of more thrusters than this are not tried: their number is the factorial.
 _MOST = 8

@@ -8,7 +8,7 @@ import numpy as np
 
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
-from fluid_sim_ros.reality.residuals import Residuals
+from fluid_sim_ros.reality.residual.residuals import Residuals
 
 #: A model's acceleration that is smaller, or less alike what was measured, says nothing of a
 #: scale: [m/s^2] or [rad/s^2], and the square of the cosine between both.

@@ -7,8 +7,8 @@ from typing import Any
 
 from fluid_sim_ros.errors import listed
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
-from fluid_sim_ros.reality.residual_numbers import AXES
-from fluid_sim_ros.reality.residuals import AVERAGE
+from fluid_sim_ros.reality.residual.numbers import AXES
+from fluid_sim_ros.reality.residual.residuals import AVERAGE
 
 #: A word is said of an axis from this share of the force on, and of its scatter.
 _WORTH, _CLEAR = 0.02, 0.25
