@@ -192,6 +192,8 @@ class ExchangeLibrary:
         library.fsr_px4_sensors.argtypes = [
             _pointer, _integer, ctypes.c_uint64, number, number, number, _pointer,
         ]  # fmt: skip
+        self.checksum: Callable[[bytes, int, int], int] = library.fsr_checksum
+        library.fsr_checksum.argtypes = [ctypes.c_char_p, number, number]
         self.px4_answer: Callable[[bytes, int, int], int] = library.fsr_px4_answer
         library.fsr_px4_answer.argtypes = [ctypes.c_char_p, _integer, _pointer]
         self.ardupilot_state: Callable[..., int] = library.fsr_ardupilot_state

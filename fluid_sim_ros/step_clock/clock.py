@@ -90,6 +90,9 @@ class StepClock:
         self._growth = length.numerator * (self._denominator // length.denominator)
         self._base = begin.numerator * (self._denominator // begin.denominator)
         self._first = pace.first
+        # a tick in the unit of the numerator below
+        self._per_tick = self._denominator * self._tick_ns.numerator
+        self._tick_part = self._tick_ns.denominator
 
     @property
     def timestep(self) -> float:
@@ -132,8 +135,7 @@ class StepClock:
         """
         if not self.retimed:
             return step
-        tick = self._tick_ns
-        return self._numerator(step) * tick.denominator // (self._denominator * tick.numerator)
+        return self._numerator(step) * self._tick_part // self._per_tick
 
     def step_at(self, tick: int) -> int:
         """
@@ -147,9 +149,8 @@ class StepClock:
         """
         if not self.retimed:
             return tick
-        length = self._tick_ns
-        ahead = tick * self._denominator * length.numerator - self._base * length.denominator
-        return self._first - -ahead // (self._growth * length.denominator)
+        ahead = tick * self._per_tick - self._base * self._tick_part
+        return self._first - -ahead // (self._growth * self._tick_part)
 
     def tick_at(self, time_ns: int) -> int:
         """

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whole frames without message objects are the dialect's own, byte by byte."""
 
+import math
 import struct
 
 import pytest
@@ -9,6 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import common as dialect
 
+from fluid_sim_ros.mavlink.px4.hil_aids import distance_sensor
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
 from fluid_sim_ros.mavlink.px4.wire import Frame
 
 numbers = st.floats(width=32, allow_nan=False)
@@ -66,3 +69,15 @@ def test_another_message_and_a_signed_one_are_not_read():
     signed[2] = 1  # MAVLINK_IFLAG_SIGNED
     signed[-2:] = struct.pack('<H', dialect.x25crc(bytes(signed[1:-2]) + b'\x2f').crc)
     assert Frame(ANSWER).read(bytes(signed)) is None
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(0, 655) | st.just(math.inf), st.integers(0, 255))
+def test_a_distance_is_packed_as_by_the_dialect(time_ms, distance, sequence):
+    writer = HilWriter(3, 7)
+    for _ in range(sequence):
+        writer.number()
+    measured, quality = (round(100 * distance), 100) if distance < 655.1 else (5001, 1)
+    message = dialect.MAVLink_distance_sensor_message(
+        time_ms, 20, 5000, measured, 0, 0, 25, 255, signal_quality=quality
+    )
+    assert distance_sensor(writer, time_ms, distance, 0.2, 50.0) == packed(message, sequence)

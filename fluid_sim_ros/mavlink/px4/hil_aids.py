@@ -11,20 +11,26 @@ import math
 from pymavlink.dialects.v20 import common as dialect
 
 from fluid_sim_ros.mavlink.ned import Vector3
+from fluid_sim_ros.mavlink.px4.hil_messages import HilWriter
+from fluid_sim_ros.mavlink.px4.wire import Frame
 
 _LASER, _DOWNWARD = 0, 25  # MAV_DISTANCE_SENSOR_LASER, MAV_SENSOR_ROTATION_PITCH_270
 #: Signal quality of DISTANCE_SENSOR [%]: 1 is the worst, 0 would be unknown.
 _NO_SIGNAL, _BEST = 1, 100
+_UNKNOWN = 255  # covariance
+_DISTANCE = Frame(dialect.MAVLink_distance_sensor_message)
 
 
 def distance_sensor(
-    time_ms: int, distance: float, nearest: float, farthest: float
-) -> dialect.MAVLink_distance_sensor_message:
+    writer: HilWriter, time_ms: int, distance: float, nearest: float, farthest: float
+) -> bytes:
     """
     Return DISTANCE_SENSOR of a laser that looks down.
 
     Parameters
     ----------
+    writer
+        Numbers the message.
     time_ms
         Time by the autopilot's clock [ms].
     distance
@@ -34,8 +40,8 @@ def distance_sensor(
 
     Returns
     -------
-    message
-        Of the dialect.
+    bytes
+        One MAVLink frame.
 
     """
     low, high = round(100 * nearest), round(100 * farthest)
@@ -43,9 +49,11 @@ def distance_sensor(
         measured, quality = round(100 * distance), _BEST
     else:
         measured, quality = (high + 1 if distance > 0 else 0), _NO_SIGNAL
-    return dialect.MAVLink_distance_sensor_message(
-        time_ms, low, high, measured, _LASER, 0, _DOWNWARD, 255, signal_quality=quality
-    )
+    angles = (0.0,) * 6  # neither a field of view nor an attitude
+    return _DISTANCE.pack(
+        writer.number(), *writer.ids, time_ms, low, high, measured, _LASER, 0, _DOWNWARD,
+        _UNKNOWN, *angles, quality,
+    )  # fmt: skip
 
 
 class OpticalFlow:

@@ -211,7 +211,7 @@ class HilState:
         if not fresh:
             return b''
         nearest, farthest = sensor.distance.range or (0.0, _FARTHEST)
-        data = writer.pack(distance_sensor(now_us // 1000, distance, nearest, farthest))
+        data = distance_sensor(writer, now_us // 1000, distance, nearest, farthest)
         if self._flow is not None:
             data += writer.pack(self._flow.message(now_us, distance))
         return data

@@ -13,6 +13,8 @@ from typing import Any
 
 from pymavlink.dialects.v20 import common as dialect
 
+from fluid_sim_ros.plugins.exchange import exchange_library
+
 #: Magic, payload length, incompatible and compatible flags, sequence, system, component, id.
 _HEAD = struct.Struct('<BBBBBBBHB')
 _CHECKSUM = struct.Struct('<H')
@@ -35,7 +37,8 @@ class Frame:
     def __init__(self, message: type[dialect.MAVLink_message]) -> None:
         self._id = message.id
         self._layout = message.unpacker
-        self._extra = bytes([message.crc_extra])
+        self._extra = message.crc_extra
+        self._sum = exchange_library().checksum
 
     def pack(self, sequence: int, system: int, component: int, *fields: Any) -> bytes:
         """
@@ -90,7 +93,7 @@ class Frame:
         return fields
 
     def _checksum(self, frame: bytes) -> int:
-        return int(dialect.x25crc(frame[1:] + self._extra).crc)
+        return self._sum(frame[1:], len(frame) - 1, self._extra)
 
 
 def triangle(variances: Sequence[float]) -> list[float]:

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exchange/frame.h"
 
+#include "api/api.h"
+
 namespace fluid_sim {
 namespace {
 
@@ -38,3 +40,7 @@ int CloseFrame(uint8_t* frame, int size, uint32_t message, uint8_t extra, uint8_
 }
 
 }  // namespace fluid_sim
+
+FSR_API int fsr_checksum(const uint8_t* bytes, int size, int extra) {
+  return fluid_sim::Checksum(bytes, size, static_cast<uint8_t>(extra));
+}
