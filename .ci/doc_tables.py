@@ -86,6 +86,11 @@ def growth() -> str:
     return _table_of('growth')
 
 
+def exchange() -> str:
+    """Return the table of what an exchange with an autopilot takes, by the benchmark's result."""
+    return _table_of('autopilot_bridge')
+
+
 def _table_of(name: str) -> str:
     path = bench_page.RESULTS / f'{name}.json'
     return bench_page.table_of(name, json.loads(path.read_text(encoding='utf-8')))
@@ -137,6 +142,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     'step profile': ('doc/speed.md', step_profile),
     'step stages': ('doc/speed.md', step_stages),
     'growth': ('doc/speed.md', growth),
+    'exchange': ('doc/speed.md', exchange),
     'rooms': ('doc/development.md', rooms),
     'parameters': ('doc/parameters.md', node_parameters),
     'command line': ('doc/reference/command_line.md', reference_pages.command_line),

@@ -244,6 +244,25 @@ def _median_us(seconds: Sequence[float]) -> float:
     return 1e6 * statistics.median(seconds)
 
 
+def table(result: dict[str, Any]) -> str:
+    """Return what an exchange takes with each autopilot, and how busy the machine was."""
+    names = {'px4': 'PX4, 250 Hz', 'ardupilot': 'ArduPilot, 400 Hz'}
+    load = f'Median processor time [us] (load {result["load_average"]:.1f})'
+    lines = [f'| {load} | {" | ".join(names.values())} |', '|---|---|---|']
+
+    def row(what: str, value: Callable[[dict[str, Any]], str]) -> None:
+        lines.append(f'| {what} | {" | ".join(value(result[name]) for name in names)} |')
+
+    row('without physics (99 %)', lambda r: f'{r["own_median_us"]:.1f} ({r["own_p99_us"]:.0f})')
+    row('physics', lambda r: f'{r["physics_median_us"]:.1f}')
+    for part in ('writing', 'sending', 'receiving', 'driving', 'python'):
+        row(f'clocked: {part}', lambda r, part=part: f'{r["parts_median_us"][part]:.1f}')
+    row('bare send, receive', lambda r: f'{r["bare"]["send_us"]:.1f}, '
+                                        f'{r["bare"]["receive_us"]:.1f}')  # fmt: skip
+    row('times real time', lambda r: f'{r["real_time_factor"]:.0f}')
+    return '\n'.join(lines)
+
+
 def main() -> None:
     """Measure both protocols and write the result."""
     options = arguments(__doc__, 'autopilot_bridge')

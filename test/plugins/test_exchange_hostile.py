@@ -15,7 +15,7 @@ from fluid_sim_ros.mavlink.mapping import load_mapping
 from fluid_sim_ros.plugins import exchange as ex
 from fluid_sim_ros.plugins.exchange import exchange_library
 
-VOLUMES = [2000, pytest.param(1_000_000, marks=[pytest.mark.full, pytest.mark.timeout(1800)])]
+VOLUMES = [2000, pytest.param(100_000, marks=[pytest.mark.full, pytest.mark.timeout(1800)])]
 #: MAV frame of HIL_ACTUATOR_CONTROLS, and the byte that stands for its definition.
 HEAD, IDENTITY, EXTRA, SIZE = b'\xfd', 93, 47, 81
 
