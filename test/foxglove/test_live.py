@@ -145,9 +145,9 @@ def test_each_topic_has_its_definition():
 @pytest.mark.usefixtures('ros_domain')
 def test_a_node_serves_viewers_too():
     pytest.importorskip('rclpy', reason='ROS is not here')
-    from test.support.ros_processes import NODE, Process
+    from test.support.ros_processes import NODE, Forked
 
-    with bound_port() as port, Process(NODE, scene='quadrotor', **{'foxglove.port': port}) as node:
+    with bound_port() as port, Forked(NODE, scene='quadrotor', **{'foxglove.port': port}) as node:
         while 'ws://127.0.0.1' not in node.output:
             assert node.alive
             time.sleep(0.05)

@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reading a mesh file: every format, units, and files that are none: one line, no hang."""
 
+import json
 import os
 import struct
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -151,3 +154,19 @@ def test_a_turned_file_gives_the_same_solid(tmp_path):
         solids.append(solid_of_file(tmp_path / 'a.obj', 1.0)[0])
     np.testing.assert_allclose(solids[0].surface.vertices, solids[1].surface.vertices, atol=1e-9)
     np.testing.assert_array_equal(solids[0].surface.faces, solids[1].surface.faces)
+
+
+def test_the_process_that_reads_a_closed_mesh_imports_no_scipy(tmp_path):
+    """It takes longer to import than all else that the process does."""
+    write_stl(box((0.5, 0.3, 0.2)), tmp_path / 'a.stl')
+    code = (
+        'import sys\nfrom fluid_sim_ros.hydro.meshes.reader_process import main\nmain()\n'
+        "print(*(name for name in ('scipy', 'capytaine', 'mujoco') if name in sys.modules))\n"
+    )
+    command = [sys.executable, '-c', code, str(tmp_path / 'a.stl'), '1', 'keep']
+    done = subprocess.run(
+        [*command, str(tmp_path / 'a.npz')], capture_output=True, text=True, check=True
+    )
+    *_, head, heavy = done.stdout.splitlines()
+    assert json.loads(head)['triangles'] == 12
+    assert heavy == ''

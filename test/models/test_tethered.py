@@ -14,14 +14,15 @@ from test.support.slung_runs import exact_period, pendulum
 from test.support.tether_equations import Cable, shape
 from test.support.tether_runs import ANCHOR, LENGTH, SEGMENTS, settled
 
+FULL = pytest.mark.full
 WHOLE = SEGMENTS * LENGTH  # [m]
 
 
 @pytest.mark.parametrize(
     ('end', 'current', 'roll', 'pull_error'),
     [
-        ((8.0, 0.0, -4.95), (0.0, 1.0, 0.0), 0.0, 0.01),  # slack, the current across
-        ((8.0, 0.0, -4.95), (0.6, 0.8, 0.0), 0.0, 0.015),  # aslant
+        pytest.param((8.0, 0.0, -4.95), (0.0, 1.0, 0.0), 0.0, 0.01, marks=FULL),  # slack, across
+        pytest.param((8.0, 0.0, -4.95), (0.6, 0.8, 0.0), 0.0, 0.015, marks=FULL),  # aslant
         ((14.5, 0.0, -4.95), (0.0, 1.0, 0.0), 0.0, 0.01),  # nearly taut
         ((8.0, 0.0, -4.95), (0.6, 0.8, 0.0), np.pi / 8, 0.06),  # between the axes of every segment
     ],

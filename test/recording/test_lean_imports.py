@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Opening a log takes little memory: what is heavy is imported where it is used."""
 
+import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
 
+from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.model import trial
 from test.support.hostile.judge import Trials
 from test.support.recorded_flights import record_flight
@@ -57,3 +60,9 @@ def test_memory_of_a_trial(log, tmp_path, monkeypatch):
     trials = Trials(tmp_path / 'peaks')
     trial.try_model(log)
     assert 40 << 20 < trials.peak() < MOST_OF_A_TRIAL
+    # a second one is spared, until the file is another
+    monkeypatch.setattr(trial, 'sys', SimpleNamespace(executable='/bin/false'))
+    trial.try_model(log)
+    os.utime(log, ns=(1, 1))
+    with pytest.raises(LogError, match='the trial ended with code 1'):
+        trial.try_model(log)

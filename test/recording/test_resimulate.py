@@ -17,6 +17,8 @@ from fluid_sim_ros.recording.replay.resimulate import parse_changes, resimulate
 from fluid_sim_ros.recording.sink import RecordingSink
 from test.support.recorded_flights import record_flight
 
+FULL = pytest.mark.full
+
 
 def flown(number, folder):
     """Record a flight with a random scene, integrator, seed and commands."""
@@ -184,10 +186,14 @@ def test_tf_of_a_log_from_before_tf_static_is_not_compared(tmp_path):
     ('place', 'words'),
     [
         ([], 'must be a mapping'),
-        ({'entity': 'sphere', 'pose': [1, 2]}, 'needs 7 numbers, or null'),
-        ({'entity': 'sphere', 'twist': ['a'] * 6}, 'must hold numbers'),
+        pytest.param({'entity': 'sphere', 'pose': [1, 2]}, 'needs 7 numbers, or null', marks=FULL),
+        pytest.param({'entity': 'sphere', 'twist': ['a'] * 6}, 'must hold numbers', marks=FULL),
         ({'entity': 'moon', 'pose': None, 'twist': None}, "entity 'moon' is not known"),
-        ({'entity': 'sphere', 'pose': [0] * 7, 'twist': None}, 'quaternion must not be zero'),
+        pytest.param(
+            {'entity': 'sphere', 'pose': [0] * 7, 'twist': None},
+            'quaternion must not be zero',
+            marks=FULL,
+        ),
     ],
 )
 def test_a_body_that_an_event_places_wrongly_is_one_line(tmp_path, place, words):

@@ -12,7 +12,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.ros.parameters.files import lost_parameters
 from fluid_sim_ros.ros.process.command_line import start_ros
 from fluid_sim_ros.ros.raw import parameter_overrides
-from test.support.ros_processes import NODE, Peer, Process, wait_until
+from test.support.ros_processes import NODE, Forked, Peer, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
@@ -37,7 +37,7 @@ def test_a_word_that_nobody_takes_is_named(arguments, words):
 
 
 def test_a_wrong_command_line_is_one_line_and_exit_code_2():
-    with Process(NODE, '--ros-args', '-p', 'a:=[1,2.5]') as process:
+    with Forked(NODE, '--ros-args', '-p', 'a:=[1,2.5]') as process:
         assert process.wait() == 2
     (line,) = process.lines
     assert line.startswith('fluid_sim_node: error: command line: cannot use parameter')
@@ -86,7 +86,7 @@ def test_a_file_for_another_node_stands_in_diagnostics(tmp_path):
     path.write_text(FILE.format(name='fluid_sim'))
     with Peer() as peer:
         peer.watch_diagnostics()
-        with Process(NODE, '--ros-args', '--params-file', str(path)):
+        with Forked(NODE, '--ros-args', '--params-file', str(path)):
             wait_until(
                 lambda: str(path) in peer.diagnostics.get('start', (0, ''))[1], 'the warning'
             )

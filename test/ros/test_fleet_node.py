@@ -13,7 +13,7 @@ from test.support.autopilots.autopilot_peers import free_port
 from test.support.autopilots.fleet_peers import Pilot
 from test.support.autopilots.px4_pilots import Quad
 from test.support.autopilots.px4_stand_in import Px4
-from test.support.ros_processes import Peer, Process, error_lines, node, stamp_ns, wait_until
+from test.support.ros_processes import Forked, Peer, error_lines, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
@@ -26,7 +26,7 @@ vehicles:
 
 def pilot(scene, vehicle, **parameters):
     arguments = ('--ros-args', '-r', f'__node:=pilot_{vehicle}')
-    return Process(
+    return Forked(
         'fluid_sim_ros.ros.controllers.quad',
         *arguments,
         scene=scene,

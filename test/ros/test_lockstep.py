@@ -13,7 +13,7 @@ from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
-from test.support.ros_processes import Peer, node, stamp_ns, wait_until
+from test.support.ros_processes import Forked, Peer, Process, node, stamp_ns, wait_until
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
@@ -46,14 +46,15 @@ class Controller:
             self._publisher.publish(answer)
 
 
-def run(answer=altitude_feedback, copies=1, extra=False, **parameters):
+def run(answer=altitude_feedback, copies=1, extra=False, start=Forked, **parameters):
     """Return the odometry that a controller saw in one simulated second of lockstep."""
     with Peer() as peer:
         controller = Controller(peer, answer, copies)
         if extra:
             for topic in ('odom', 'wrench/total'):
                 peer.collect(Odometry if topic == 'odom' else WrenchStamped, f'x500/{topic}')
-        with node(scene='quadrotor', pacing='lockstep', duration=1.0, **parameters) as process:
+        settings = {'scene': 'quadrotor', 'pacing': 'lockstep', 'duration': 1.0, **parameters}
+        with node(start, **settings) as process:
             assert process.wait() == 0
     by_stamp = {stamp_ns(m): m for m in controller.received}
     return [by_stamp[stamp] for stamp in sorted(by_stamp)]
@@ -72,7 +73,7 @@ def numbers(messages):
 
 def test_two_runs_are_equal_to_the_bit_with_extra_subscribers_and_a_publishing_thread():
     first = run()
-    second = run(extra=True, copies=2, publish__thread='always')
+    second = run(extra=True, copies=2, start=Process, publish__thread='always')
     stamps = [stamp_ns(m) for m in first]
     assert stamps[:100] == list(range(0, 1_000_000_000, 10_000_000))
     both = min(len(first), len(second))

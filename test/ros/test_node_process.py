@@ -8,7 +8,15 @@ from itertools import product
 import pytest
 from nav_msgs.msg import Odometry
 
-from test.support.ros_processes import NODE, Peer, Process, error_lines, node, wait_until
+from test.support.ros_processes import (
+    NODE,
+    Forked,
+    Peer,
+    Process,
+    error_lines,
+    node,
+    wait_until,
+)
 from test.support.volumes import quick
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
@@ -26,7 +34,7 @@ def test_a_signal_ends_the_node_with_exit_code_0(end):
     pacing, number = end
     with Peer() as peer:
         odometry = peer.collect(Odometry, 'x500/odom')
-        with node(scene='quadrotor', pacing=pacing) as process:
+        with node(Process, scene='quadrotor', pacing=pacing) as process:
             wait_until(lambda: odometry, 'odometry')
             process.signal(number)
             assert process.wait(10) == 0
@@ -38,7 +46,7 @@ def test_two_instances_in_namespaces_do_not_meet():
     with Peer() as peer:
         one = peer.collect(Odometry, '/one/sphere/odom')
         two = peer.collect(Odometry, '/sphere/odom')
-        with Process(NODE, *arguments, scene='sphere'), node(scene='sphere'):
+        with Forked(NODE, *arguments, scene='sphere'), node(scene='sphere'):
             wait_until(lambda: len(one) > 3 and len(two) > 3, 'both odometries')
 
 
@@ -86,6 +94,6 @@ def test_a_wrong_domain_is_one_line(monkeypatch):
 def test_a_scene_file_as_parameter_file_is_refused(tmp_path):
     path = tmp_path / 'scene.yaml'
     path.write_text('model: rov\nschedule: [{at: 1}]\n')
-    with Process(NODE, '--ros-args', '--params-file', str(path)) as process:
+    with Forked(NODE, '--ros-args', '--params-file', str(path)) as process:
         assert process.wait() == 2
     assert "belongs in the parameter 'scene'" in process.output

@@ -22,7 +22,7 @@ from fluid_sim_ros.cli.run import run_scene
 from fluid_sim_ros.recording.reader import open_log
 from fluid_sim_ros.recording.replay.resimulate import resimulate
 from test.support.recorded_flights import events_of
-from test.support.ros_processes import NODE, Peer, Process, node, stamp_ns, wait_until
+from test.support.ros_processes import NODE, Forked, Peer, node, stamp_ns, wait_until
 
 pytestmark = pytest.mark.ros
 
@@ -101,7 +101,7 @@ def test_a_namespace_stands_before_the_recorded_topics(tmp_path):
     path = tmp_path / 'a.mcap'
     arguments = ['--ros-args', '-r', '__ns:=/tank']
     settings = {'scene': 'sphere', 'record.path': path, 'duration': 0.1}
-    with Process(NODE, *arguments, **settings) as process:
+    with Forked(NODE, *arguments, **settings) as process:
         assert process.wait() == 0
     assert {'/tank/sphere/odom', '/clock'} <= set(read(path))
 
@@ -170,7 +170,7 @@ def test_too_few_file_handles_for_a_node_are_one_line():
 
 def writer_of(process):
     """Return the process id of a node's writer."""
-    children = f'/proc/{process._process.pid}/task/{process._process.pid}/children'
+    children = f'/proc/{process.pid}/task/{process.pid}/children'
     found = []
 
     def look():

@@ -20,8 +20,8 @@ from fluid_sim_ros.ros.controllers.parameters import table_of
 from fluid_sim_ros.ros.parameters.simulator import TABLE
 from test.support.ros_processes import (
     NODE,
+    Forked,
     Peer,
-    Process,
     controller,
     error_lines,
     node,
@@ -103,7 +103,7 @@ def test_every_parameter_of_the_node_survives_dump_and_start(tmp_path):
         assert before['record.path'] == '' and before['scene'] == 'rov'
     path.write_text(text)
     arguments = ('--ros-args', '--params-file', str(path))
-    with Peer() as peer, Process(NODE, *arguments) as process:
+    with Peer() as peer, Forked(NODE, *arguments) as process:
         assert_same(values_of(peer, '/fluid_sim_node'), before)
         assert not error_lines(process.output)
 
@@ -116,7 +116,7 @@ def test_every_parameter_of_a_controller_survives_dump_and_start(kind, tmp_path)
         text, before = dumped(peer, name), values_of(peer, name)
     path.write_text(text)
     module = f'fluid_sim_ros.ros.controllers.{kind}'
-    with Peer() as peer, Process(module, '--ros-args', '--params-file', str(path)) as process:
+    with Peer() as peer, Forked(module, '--ros-args', '--params-file', str(path)) as process:
         assert_same(values_of(peer, name), before)
         assert not error_lines(process.output)
 

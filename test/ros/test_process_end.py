@@ -13,6 +13,7 @@ from nav_msgs.msg import Odometry
 
 from fluid_sim_ros.recording.reader import open_log
 from test.support.ros_processes import Peer, error_lines, wait_until
+from test.support.volumes import quick
 
 pytestmark = [pytest.mark.ros, pytest.mark.usefixtures('ros_domain')]
 
@@ -69,7 +70,12 @@ class Launched:
 
 
 @pytest.mark.parametrize(
-    ('number', 'again'), [(signal.SIGINT, 0.05), (signal.SIGINT, 1.0), (signal.SIGTERM, 0.3)]
+    ('number', 'again'),
+    [
+        (signal.SIGINT, 0.05),
+        pytest.param(signal.SIGINT, 1.0, marks=pytest.mark.full),
+        (signal.SIGTERM, 0.3),
+    ],
 )
 def test_ctrl_c_to_the_group_and_once_more_to_each_ends_all_with_0(tmp_path, number, again):
     """The terminal signals the group; launch then signals each process itself."""
@@ -101,7 +107,7 @@ def test_ctrl_c_while_it_starts_ends_it_with_0(tmp_path, executable, delay):
         launched.assert_clean()
 
 
-@pytest.mark.parametrize('executable', EXECUTABLES)
+@pytest.mark.parametrize('executable', quick(EXECUTABLES, 'fluid_sim_node', 'quad_controller'))
 def test_every_executable_shows_its_help(tmp_path, executable):
     code = f'from fluid_sim_ros.ros.executables import {executable} as run; run()'
     option = '-h' if executable == 'quad_controller' else '--help'

@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from fluid_sim_ros.recording.reader import open_log
 from test.support.recorded_flights import record_flight
-from test.support.ros_processes import Peer, Process, stamp_ns, wait_until
+from test.support.ros_processes import Forked, Peer, stamp_ns, wait_until
 
 pytestmark = pytest.mark.ros
 
@@ -24,7 +24,7 @@ def log(tmp_path_factory):
 
 
 def replay(log, *options):
-    return Process('fluid_sim_ros.cli', 'replay', str(log), *options)
+    return Forked('fluid_sim_ros.cli', 'replay', str(log), *options)
 
 
 def play_when_heard(peer, *lists):

@@ -14,7 +14,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from websockets.sync.client import connect
 
-from test.support.ros_processes import NODE, Peer, Process, controller, wait_until
+from test.support.ros_processes import NODE, Forked, Peer, controller, wait_until
 from test.support.view_client import client
 from test.support.view_pages import time_of
 
@@ -33,7 +33,7 @@ def url_of(view):
 
 
 def test_a_node_is_seen_paused_stepped_and_commanded():
-    with Process(NODE, scene='rov') as node, Process(
+    with Forked(NODE, scene='rov') as node, Forked(
         'fluid_sim_ros.cli', 'view', '--node', '--port', '0'
     ) as view:  # fmt: skip
         with client(url_of(view)) as browser:
@@ -52,7 +52,7 @@ def test_a_node_is_seen_paused_stepped_and_commanded():
 
 @pytest.mark.full
 def test_keys_steer_a_node_whose_controller_follows_cmd_vel():
-    with Process(NODE, scene='rov') as node, Process(
+    with Forked(NODE, scene='rov') as node, Forked(
         'fluid_sim_ros.cli', 'view', '--node', '--port', '0'
     ) as view, Peer() as peer:  # fmt: skip
         odometry = peer.collect(Odometry, 'bluerov2_heavy/odom')
@@ -94,6 +94,6 @@ def forces(page):
 
 @pytest.mark.full
 def test_a_node_that_is_not_there_is_one_line():
-    with Process('fluid_sim_ros.cli', 'view', '--node', '/nobody', '--port', '0') as view:
+    with Forked('fluid_sim_ros.cli', 'view', '--node', '/nobody', '--port', '0') as view:
         assert view.wait() == 2
     assert 'no such node' in view.output and 'Traceback' not in view.output

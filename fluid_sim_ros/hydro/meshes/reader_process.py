@@ -8,6 +8,7 @@ It limits its own memory and processor time, writes the repaired solid to RESULT
 file states, else metres. UP: one of ``up_axis.UPS``.
 """
 
+import importlib
 import json
 import logging
 import resource
@@ -150,8 +151,7 @@ def _read(path: Path, scale: float, rotation: Array, result: Path) -> dict[str, 
 
 def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
     """Return vertices and faces of each mesh, where the file's scene puts it, and its unit [m]."""
-    import trimesh
-
+    trimesh = _trimesh()
     logging.disable(logging.CRITICAL)
     try:
         scene = trimesh.load_scene(
@@ -191,6 +191,17 @@ def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
             f'is no {path.suffix.lower().lstrip(".")} mesh ({_words(error)})'
         ) from None
     return pieces, unit
+
+
+def _trimesh() -> Any:
+    """Import trimesh without scipy: it reads files without, in a third of the time."""
+    if 'scipy' in sys.modules:
+        return importlib.import_module('trimesh')
+    sys.modules['scipy'] = None  # type: ignore[assignment]  # what Python takes for missing
+    try:
+        return importlib.import_module('trimesh')
+    finally:
+        del sys.modules['scipy']
 
 
 def _words(error: Exception) -> str:

@@ -4,7 +4,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from fluid_sim_ros.hydro.meshes.surface import Faces, Surface, directed_edges, edge_keys, labels
 from fluid_sim_ros.physics.arrays import Array
@@ -166,6 +165,8 @@ def without_cracks(surface: Surface) -> tuple[Surface, float]:
 
 def _drawn_together(surface: Surface, beside: Faces, reach: float) -> Surface:
     """Return the mesh with the given vertices made one where they are within reach."""
+    from scipy.spatial import cKDTree  # takes longer to import than most meshes, which are closed
+
     points: Array = surface.vertices[beside]
     pairs = cKDTree(points).query_pairs(reach, output_type='ndarray')
     if not len(pairs):

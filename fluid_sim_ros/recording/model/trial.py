@@ -30,10 +30,13 @@ _CANNOT, _MEMORY = 3, 4
 #: What MuJoCo says where memory is refused; the second is all that its bindings say of bad_alloc.
 _OF_MEMORY = ('allocate memory', 'Caught an unknown exception')
 
+#: Files whose models have passed, as they were, and under which limits.
+_passed: set[tuple[int, ...]] = set()
+
 
 def try_model(path: Path) -> None:
     """
-    Load a log's model in a process of its own and take one step.
+    Load a log's model in a process of its own and take one step; once as long as nothing changes.
 
     Parameters
     ----------
@@ -48,7 +51,14 @@ def try_model(path: Path) -> None:
     """
     # -P: modules that lie in the working folder are not imported
     command = [sys.executable, '-P', '-m', 'fluid_sim_ros.recording.model.trial', os.fspath(path)]
-    size = path.stat().st_size
+    file = path.stat()
+    size = file.st_size
+    key = (
+        file.st_dev, file.st_ino, size, file.st_mtime_ns, file.st_ctime_ns,
+        limit('model_bytes'), limit('model_seconds'),
+    )  # fmt: skip
+    if key in _passed:
+        return
     patience = limit('model_seconds') + _SECONDS_PER_BYTE * size + _PATIENCE
     environment = os.environ | {'MALLOC_ARENA_MAX': '2'}
     try:
@@ -58,6 +68,7 @@ def try_model(path: Path) -> None:
     except subprocess.TimeoutExpired:
         raise _too_long(path) from None
     if not done.returncode:
+        _passed.add(key)
         return
     if done.returncode == _CANNOT:
         raise LogError(json.loads(done.stdout.splitlines()[-1]))
