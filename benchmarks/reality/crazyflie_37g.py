@@ -7,7 +7,9 @@ Errors of open-loop windows by horizon of ``crazyflie`` (numbers of the literatu
 ``crazyflie_37g`` (fitted to flights 00, 12, 20), beside two baselines, on each flight; what limits
 them: the response to the rotors' moments by band of frequency, what is left of the moments, and
 how far an unknown moment of 1 rad/s^2 turns the vehicle within a window; what a perfect model
-would be off by from measurements with this noise (``forecast_bound``). One picture in doc/img.
+would be off by from measurements with this noise (``forecast_bound``); the same from states that
+are smoothed from motion capture, gyro and accelerometer, with the trim and the air of each flight,
+and for the model as it comes out of them (``crazyflie_limits``). Two pictures in doc/img.
 
 The recordings (figure eights in motion capture, crazyflie-data-collection of IMRC, TU Berlin) are
 not part of this repository.
@@ -15,6 +17,7 @@ Run: ``python -m benchmarks.reality.crazyflie_37g [--quick] [--json PATH] [--fli
 """
 
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +26,11 @@ import numpy as np
 from scipy.signal import butter, filtfilt
 
 from benchmarks.common import ROOT, arguments, write
-from benchmarks.reality.forecast_bound import bound_of
+from benchmarks.reality import crazyflie_limits as limits
+from benchmarks.reality.forecast_bound import bound_of, measured_noise, noise_of_smoothed
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.reader import read_flight
+from fluid_sim_ros.flights.smooth import Smoothed, smoothed
 from fluid_sim_ros.reality.compare import HORIZONS, Part, compare, fly_windows
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.flying import Flyer
@@ -60,6 +65,32 @@ def errors_of(flight: Flight) -> dict[str, Any]:
             'words': numbers['words'],
         }
         result['hold_velocity'] = medians(numbers['baselines']['hold_velocity']['horizons'])
+    return result
+
+
+def bounds_of(flight: Flight, smooth: Smoothed) -> dict[str, Any]:
+    """Return what a perfect model would be off by, from the log's state and the smoothed one."""
+    return bound_of(flight, 'crazyflie_37g', HORIZONS, measured_noise(flight, smooth)) | {
+        'smoothed': bound_of(smooth.flight, 'crazyflie_37g', HORIZONS, noise_of_smoothed(smooth))
+    }
+
+
+def smooth_of(smooth: Smoothed, flight: Flight, models: dict[str, str]) -> dict[str, Any]:
+    """Return what smoothed states say of one flight: errors, trim, air, what is left over."""
+    part = Part(horizons=HORIZONS)
+    result: dict[str, Any] = {
+        'sigmas': smooth.sigmas, 'point_m': smooth.point.tolist(),
+        'turn_rad': smooth.turn.tolist(), 'surprise': smooth.surprise,
+    }  # fmt: skip
+    for name, model in models.items():
+        numbers = compare(smooth.flight, model, part=part).numbers
+        result[name] = {
+            'horizons': medians(numbers['horizons']),
+            'not_smoothed': medians(compare(flight, model, part=part).numbers['horizons']),
+            'trimmed': limits.trimmed(smooth.flight, model),
+            'air': limits.with_air(smooth.flight, model),
+            'remainder': limits.remainder_of(smooth.flight, model)[0],
+        }
     return result
 
 
@@ -118,6 +149,8 @@ def draw(found: dict[str, Any], bound: dict[str, Any], path: Path) -> None:
         ('rigid body', rows['crazyflie_37g']['rigid_body'], 'v:', 'tab:red'),
         ('crazyflie_37g (fitted)', rows['crazyflie_37g']['horizons'], 'o-', 'tab:blue'),
         ('perfect model, noise of the log', bound['all_that_is_measured'], '.--', 'tab:green'),
+        ('perfect model, smoothed state', bound['smoothed']['all_that_is_measured'], '.:',
+         'tab:cyan'),
         ('perfect model, 1 % of each thrust unknown', bound['thrust_of_each_rotor']['0.01'],
          '.-.', 'tab:olive'),
     ]  # fmt: skip
@@ -151,6 +184,7 @@ def main() -> None:
     if chosen.quick:
         paths = {LEFT_OUT: paths[LEFT_OUT]}
     flights = {number: read_flight(path) for number, path in paths.items()}
+    smooth = {n: smoothed(read_flight(path, limits.MOCAP)) for n, path in paths.items()}
     found = {number: errors_of(flight) for number, flight in flights.items()}
     left = found[LEFT_OUT]
     here = left['crazyflie_37g']['horizons']
@@ -169,10 +203,18 @@ def main() -> None:
             if any(here[h][key] >= rows[h][key] for rows in baselines)
         ],
         'limits': {number: limits_of(flight) for number, flight in flights.items()},
-        'bound': {n: bound_of(flight, 'crazyflie_37g', HORIZONS) for n, flight in flights.items()},
+        'bound': {n: bounds_of(flight, smooth[n]) for n, flight in flights.items()},
     }  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder:
+        models = {
+            'crazyflie_37g': 'crazyflie_37g',
+            'refitted': limits.write_refitted(Path(folder) / 'refitted.xml'),
+        }
+        result['smoothed'] = {n: smooth_of(smooth[n], flights[n], models) for n in flights}
     write(chosen.json, result)
     if not chosen.quick:
+        numbers, curves = limits.remainder_of(smooth[LEFT_OUT].flight, 'crazyflie_37g')
+        limits.draw(numbers, curves, ROOT / 'doc' / 'img' / 'crazyflie_37g_remainder.png')
         draw(found, result['bound'][LEFT_OUT], ROOT / 'doc' / 'img' / 'crazyflie_37g_reality.png')
 
 

@@ -15,15 +15,16 @@ import numpy as np
 from scipy.signal import butter, filtfilt
 
 from fluid_sim_ros.flights.flight import Flight
+from fluid_sim_ros.flights.smooth import Smoothed
 from fluid_sim_ros.reality.compare import fly_windows
 from fluid_sim_ros.reality.driven import comparable_scene, drive
-from fluid_sim_ros.reality.fitting.shooting import moved
+from fluid_sim_ros.reality.fitting.shooting import error_vectors, moved
 from fluid_sim_ros.reality.flying import Flyer
-from fluid_sim_ros.reality.windows import cut, errors
+from fluid_sim_ros.reality.windows import cut, errors, state_at
 
 #: What is faster than this is noise, of a signal of the state and of a rotor's speed [Hz].
 _STATE_BAND, _ROTOR_BAND = 8.0, 20.0
-#: Assumption: tilt of an estimate that leans on motion capture [rad].
+#: Assumption where nothing better is known: tilt by an estimate with motion capture [rad].
 _TILT = np.radians(0.5) / np.sqrt(3)
 #: Shares of each rotor's thrust that come and go unmeasured, constant within a window.
 _SHARES = (0.005, 0.01)
@@ -37,8 +38,13 @@ def _noise(values: np.ndarray, rate: float, band: float) -> float:
     return float(np.sqrt(((values - smooth) ** 2).mean()))
 
 
-def measured_noise(flight: Flight) -> dict[str, float]:
-    """Return the errors of the log: [m], [m/s], [rad], [rad/s], rotor speed [rad/s]."""
+def measured_noise(flight: Flight, smooth: Smoothed | None = None) -> dict[str, float]:
+    """
+    Return the errors of the log: [m], [m/s], [rad], [rad/s], rotor speed [rad/s].
+
+    With a smoothed state, position, velocity and attitude are held against that, less what is
+    constant; else the velocity against the change of position, and the tilt is assumed.
+    """
     signal = flight.signals
     position, velocity = signal['position'], signal['velocity']
     times = np.arange(1.0, position.times[-1] - 1.0, 0.05)
@@ -46,7 +52,7 @@ def measured_noise(flight: Flight) -> dict[str, float]:
     inside = times[:, None] + np.linspace(0, _OVER, 51)
     mean = velocity.between(inside.ravel()).reshape(*inside.shape, 3).mean(axis=1)
     drift = change / _OVER - mean
-    return {
+    found = {
         'position': _noise(position.values, position.rate, _STATE_BAND),
         'velocity': float(np.sqrt(((drift - drift.mean(axis=0)) ** 2).mean())),
         'attitude': float(_TILT),
@@ -55,15 +61,31 @@ def measured_noise(flight: Flight) -> dict[str, float]:
             signal['rotor_speed'].values, signal['rotor_speed'].rate, _ROTOR_BAND
         ),
     }
+    if smooth is not None:
+        times = np.arange(1.0, position.times[-1] - 1.0, 0.02)
+        off = error_vectors(state_at(flight, times), state_at(smooth.flight, times))
+        for i, name in enumerate(('position', 'attitude', 'velocity')):
+            part = off[:, 3 * i : 3 * i + 3]
+            found[name] = float(np.sqrt(((part - part.mean(axis=0)) ** 2).mean()))
+    return found
 
 
-def bound_of(flight: Flight, model: str, horizons: tuple[float, ...]) -> dict[str, Any]:
+def noise_of_smoothed(smooth: Smoothed) -> dict[str, float]:
+    """Return the errors of a smoothed state, as the smoother states them."""
+    position, velocity, attitude = smooth.sigmas
+    raw = measured_noise(smooth.flight)
+    return raw | {'position': position, 'velocity': velocity, 'attitude': attitude}
+
+
+def bound_of(
+    flight: Flight, model: str, horizons: tuple[float, ...], noise: dict[str, float]
+) -> dict[str, Any]:
     """Return medians by horizon for each source of error, and for all that is measured."""
     driven = drive(comparable_scene(model), flight)
     flyer = Flyer(driven)
     windows = cut(flight, max(horizons), apart=0.1)
     truth = fly_windows(flyer, windows, horizons)
-    step, noise = flyer.timestep, measured_noise(flight)
+    step = flyer.timestep
     start = windows.measured(0.0)
     controls = windows.controls(driven, step)[:, : round(max(horizons) / step)]
     every = [round(h / step) for h in horizons]

@@ -115,6 +115,37 @@ def damping_wrench(d_linear: ArrayLike, d_quadratic: ArrayLike, nu: ArrayLike) -
     return -(linear + quadratic)[..., 0]
 
 
+def faded_moments(d_linear: ArrayLike, fade: ArrayLike, nu: ArrayLike) -> Array:
+    """
+    Return D_lin with the moments of roll and pitch by surge and sway times 1/(1 + V/v_f).
+
+    Rotors in oblique flow: such a moment grows slower than the speed. The form is fitted to
+    flights (doc/vehicles/crazyflie_37g.md), with the right limits: linear in a slow flow, constant
+    in a fast one.
+
+    Parameters
+    ----------
+    d_linear
+        Shape (6, 6).
+    fade
+        v_f of roll and of pitch [m/s], shape (2,); 0: it does not fade.
+    nu
+        Velocity relative to the medium [m/s] and angular velocity [rad/s], body axes, shape (6,).
+
+    Returns
+    -------
+    Shape (6, 6).
+
+    """
+    matrix = np.array(d_linear, dtype=np.float64)
+    nu = vectors(nu, 'nu', 6)
+    across = float(np.hypot(nu[0], nu[1]))
+    for row, speed in zip((3, 4), np.asarray(fade, dtype=np.float64), strict=True):
+        if speed > 0:
+            matrix[row, :2] /= 1.0 + across / speed
+    return matrix
+
+
 def cross_damping_wrench(terms: Sequence[CrossTerm], nu: ArrayLike) -> Array:
     """
     Return the sum of -coef |nu_a| nu_b into each row, for terms such as Y_|v|r or N_|v|r.

@@ -73,6 +73,11 @@ def body_parameters(spec: mujoco.MjSpec, base: str) -> list[Parameter]:
             scale = abs(numbers[i]) or 0.1 * max(map(abs, numbers[i // 3 * 3 : i // 3 * 3 + 3]))
             found.append(Parameter(f'{key}.{dof}', units[i // 3], numbers[i], 0.0, np.inf,
                                    scale or 1.0, put_at(key, i)))  # fmt: skip
+    fades = words_of(plugin.config, 'moment_fade')
+    for i, axis in enumerate(('roll', 'pitch')):
+        if len(fades) == 2 and fades[i] > 0:
+            found.append(Parameter(f'moment_fade.{axis}', 'm/s', fades[i], 0.05, np.inf, fades[i],
+                                   put_at('moment_fade', i)))  # fmt: skip
     words = plugin.config.get('volume', '').split()
     if words and words[0] != 'auto':
         value = float(words[0])

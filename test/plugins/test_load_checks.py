@@ -11,6 +11,9 @@ from test.support.plugin_models import body_plugin, ellipsoid, free_body, load, 
 
 HULL = ellipsoid([0.3, 0.2, 0.1], 500)
 SEA = {'density': 1000, 'viscosity': 1e-3}
+#: Resistance with a moment of pitch by surge, row by row.
+MOMENT = [1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
+          0, 0, 0, 1, 0, 0, 0.1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1]  # fmt: skip
 EYE = [1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1]
 
 
@@ -53,6 +56,16 @@ BAD_BODIES = {
     ),
     'total twice': (
         hull(cross_damping='5 1 3 2 5 3 1 2', cross_damping_total='true'), ['once in a row']
+    ),
+    'negative fade': (
+        hull(linear_damping=MOMENT, moment_fade='0 -1'), ['moment_fade', '-1', '>= 0']
+    ),
+    'fade of nothing': (
+        hull(linear_damping=[1] * 6, moment_fade='0 1'), ['moment_fade needs linear_damping']
+    ),
+    'fade beside its mirror': (
+        hull(linear_damping=[*MOMENT[:4], 0.1, *MOMENT[5:]], moment_fade='0 1'),
+        ['moment_fade', 'would not fade'],
     ),
     'negative volume': (hull(volume=-3), ['volume', "'-3'", 'auto or a number > 0 [m^3]']),
     'zero volume': (hull(volume=0), ['volume', "'0'", '> 0']),

@@ -12,6 +12,7 @@ from fluid_sim_ros.physics.fossen import (
     CrossTerm,
     cross_damping_wrench,
     damping_wrench,
+    faded_moments,
     secant_damping,
 )
 from fluid_sim_ros.physics.reynolds import reynolds_drag
@@ -111,6 +112,23 @@ def test_damping_with_cross_terms():
     np.testing.assert_allclose(
         explicit_force(model, data), generalized(rotation, wrench[:3], wrench[3:]), rtol=1e-12
     )
+
+
+@pytest.mark.parametrize('fade', [(0.0, 1.4), (2.5, 0.7)])
+def test_moments_by_surge_and_sway_fade_with_speed(fade):
+    linear = np.diag([5.0, 6.0, 7.0, 1.0, 1.2, 0.8])
+    linear[3, 1], linear[4, 0] = -0.4, 0.6
+    values = {'linear_damping': linear, 'moment_fade': fade}
+    inside = '<inertial pos="0 0 0" mass="5" diaginertia=".3 .2 .1"/>'
+    model, data = load(world(free_body(inside + body_plugin(**values)), medium=SEA))
+    rotation, v, omega = random_state(model, data, 4)
+    nu = np.r_[v, omega]
+    wrench = damping_wrench(faded_moments(linear, fade, nu), np.zeros((6, 6)), nu)
+    np.testing.assert_allclose(
+        explicit_force(model, data), generalized(rotation, wrench[:3], wrench[3:]), rtol=1e-12
+    )
+    at_the_speed = faded_moments(linear, fade, [fade[1], 0, 0, 0, 0, 0])
+    assert at_the_speed[4, 0] == pytest.approx(0.5 * linear[4, 0])
 
 
 @pytest.mark.parametrize('added_mass', [[5, 40, 50, 1, 6, 7], 'auto', None])

@@ -4,7 +4,7 @@
 
 import pytest
 
-from benchmarks.reality import crazyflie_37g
+from benchmarks.reality import crazyflie_37g, crazyflie_limits
 from fluid_sim_ros.flights.reader import read_flight
 from fluid_sim_ros.reality.driven import comparable_scene
 from fluid_sim_ros.reality.fit import fit
@@ -46,6 +46,17 @@ def test_entries_of_a_damping_matrix_are_parameters():
     assert known['linear_damping.pitch_surge'].unit == 'N s'
     assert known['linear_damping.surge'].low == 0
     assert 'linear_damping.yaw_heave' not in known
+
+
+def test_the_refitted_model_has_a_moment_that_fades(tmp_path):
+    path = crazyflie_limits.write_refitted(tmp_path / 'refitted.xml')
+
+    known = {p.name: p for p in all_parameters(comparable_scene(path))}
+
+    assert known['moment_fade.pitch'].value == crazyflie_limits.FADE
+    assert 'moment_fade.roll' not in known
+    for name, value in crazyflie_limits.REFITTED.items():
+        assert known[name].value == pytest.approx(value)
 
 
 @pytest.mark.parametrize('name', ['crazyflie_37g', 'bluerov2_heavy'])

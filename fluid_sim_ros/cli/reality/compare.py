@@ -56,6 +56,32 @@ def add_model(parser: argparse.ArgumentParser) -> None:
         '--mapping', metavar='FILE', type=Path,
         help='which columns are what; default: config/flights of the format',
     )  # fmt: skip
+    parser.add_argument(
+        '--smooth', action='store_true',
+        help='state from pose, gyro and accelerometer together, of later samples, too; for a pose '
+        'that was measured (motion capture), not estimated',
+    )  # fmt: skip
+
+
+def read_log(log: str, mapping: 'FlightMap | None', smooth: bool) -> 'Flight':
+    """
+    Return the flight of a log, with its state smoothed where that is asked for.
+
+    Parameters
+    ----------
+    log
+        Path.
+    mapping
+        The user's.
+    smooth
+        Whether ``--smooth`` was given.
+
+    """
+    from fluid_sim_ros.flights.reader import read_flight
+    from fluid_sim_ros.flights.smooth import smoothed
+
+    flight = read_flight(log, mapping)
+    return smoothed(flight).flight if smooth else flight
 
 
 def add_part(parser: argparse.ArgumentParser) -> None:
@@ -142,11 +168,10 @@ def outputs_of(flight: 'Flight', mapping: 'FlightMap | None', model: str) -> tup
 
 
 def _compare(arguments: argparse.Namespace, show: Show) -> int:
-    from fluid_sim_ros.flights.reader import read_flight
     from fluid_sim_ros.reality.compare import compare
 
     mapping = mapping_of(arguments.mapping)
-    flight = read_flight(arguments.log, mapping)
+    flight = read_log(arguments.log, mapping, arguments.smooth)
     outputs = outputs_of(flight, mapping, arguments.model)
     found = compare(flight, arguments.model, outputs, part_of(arguments))
     replayed = _replayed(arguments.log)

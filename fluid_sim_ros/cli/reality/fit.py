@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import above
-from fluid_sim_ros.cli.reality.compare import add_model, outputs_of
+from fluid_sim_ros.cli.reality.compare import add_model, outputs_of, read_log
 from fluid_sim_ros.cli.reality.info import mapping_of
 from fluid_sim_ros.cli.shared import Show, add_command, plain_text, progress_of_parts, unbroken
 from fluid_sim_ros.errors import ConfigError
@@ -77,7 +77,6 @@ def add_parser(commands: Any, show: Show) -> None:
 
 
 def _fit(arguments: argparse.Namespace, show: Show) -> int:
-    from fluid_sim_ros.flights.reader import read_flight
     from fluid_sim_ros.reality.driven import comparable_scene
     from fluid_sim_ros.reality.fit import fit
     from fluid_sim_ros.reality.fitting.solver import Task
@@ -91,8 +90,8 @@ def _fit(arguments: argparse.Namespace, show: Show) -> int:
         show(arguments.json, plain_text(lines), [p.name for p in known])
         return 0
     mapping = mapping_of(arguments.mapping)
-    flights = [read_flight(log, mapping) for log in arguments.logs]
-    tested = [read_flight(log, mapping) for log in arguments.test]
+    flights = [read_log(log, mapping, arguments.smooth) for log in arguments.logs]
+    tested = [read_log(log, mapping, arguments.smooth) for log in arguments.test]
     task = Task(
         arguments.model, tuple(arguments.parameters), arguments.window, begin=arguments.begin,
         end=arguments.end, outputs=outputs_of(flights[0], mapping, arguments.model),

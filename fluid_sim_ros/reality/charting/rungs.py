@@ -14,8 +14,8 @@ from fluid_sim_ros.reality.driven import Edit
 from fluid_sim_ros.scene import Scene
 
 _DAMPING = (
-    'linear_damping', 'quadratic_damping', 'cross_damping', 'cross_damping_total', 'drag_blunt',
-    'drag_slender', 'drag_angular', 'rotational_damping',
+    'linear_damping', 'quadratic_damping', 'cross_damping', 'cross_damping_total', 'moment_fade',
+    'drag_blunt', 'drag_slender', 'drag_angular', 'rotational_damping',
 )  # fmt: skip
 
 

@@ -205,6 +205,8 @@ def with_flow(edit: Edit, flight: Flight, chosen: Sequence[Parameter], values: A
             rows = np.zeros((len(fine), 4))
             rows[:, 0] = time_in_model(flight, fine)
             rows[:, 1 + _AXES.index(axis)] = np.interp(fine, times, speeds)
+            # as the text keeps them: times of two components are then the same number
+            rows = np.reshape([float(word) for word in text_of(rows.ravel()).split()], (-1, 4))
             for plugin in _media(spec, stream):
                 there = np.reshape(words_of(plugin.config, f'{stream}_series'), (-1, 4))
                 text = text_of(_sum(rows, there).ravel())

@@ -134,6 +134,30 @@ bool ReadTotals(const mjModel* m, const Config& config, const Medium& medium, Bo
   return true;
 }
 
+// The moments that fade with speed need their part of the matrix, and nothing that mirrors it.
+bool ReadFade(const Config& config, Damping* damping) {
+  constexpr char kAllowed[] = "2 numbers >= 0 [m/s], of roll and of pitch; 0: it does not fade";
+  std::vector<mjtNum> fade;
+  if (!config.Numbers("moment_fade", {2}, kAllowed, &fade)) return false;
+  if (fade.empty()) return true;
+  for (int i = 0; i < 2; ++i) {
+    if (!(fade[i] >= 0)) return config.Refuse("moment_fade", kAllowed);
+    damping->fade[i] = fade[i];
+    if (!fade[i]) continue;
+    damping->fades = true;
+    const mjtNum* d = damping->linear;
+    if (!d[6 * (3 + i)] && !d[6 * (3 + i) + 1]) {
+      return config.Fail("moment_fade needs linear_damping with a moment by surge or sway");
+    }
+    if (d[3 + i] || d[6 + 3 + i]) {
+      return config.Fail(
+          "moment_fade: linear_damping has a force by the same rate of turn, which would not fade; "
+          "allowed: 0 there");
+    }
+  }
+  return true;
+}
+
 bool ReadDamping(const Config& config, Damping* damping) {
   bool linear, quadratic;
   if (!ReadMatrix6(config, "linear_damping", {6, 36}, "6 or 36 numbers [N s/m], [N s], [N m s]",
@@ -143,7 +167,7 @@ bool ReadDamping(const Config& config, Damping* damping) {
                    damping->quadratic) ||
       (linear && !CheckSemidefinite(config, "linear_damping", damping->linear, false)) ||
       (quadratic && !CheckDiagonal(config, "quadratic_damping", damping->quadratic)) ||
-      !ReadCrossTerms(config, damping)) {
+      !ReadCrossTerms(config, damping) || !ReadFade(config, damping)) {
     return false;
   }
   damping->any = linear || quadratic || !damping->cross.empty();
@@ -152,21 +176,11 @@ bool ReadDamping(const Config& config, Damping* damping) {
 
 }  // namespace
 
-const char* const kBodyAttributes[] = {"added_mass",
-                                       "reference_point",
-                                       "linear_damping",
-                                       "quadratic_damping",
-                                       "cross_damping",
-                                       "cross_damping_total",
-                                       "drag",
-                                       "drag_area",
-                                       "drag_reynolds",
-                                       "drag_angular",
-                                       "rotational_damping",
-                                       "volume",
-                                       "center_of_buoyancy",
-                                       "geoms",
-                                       "history"};
+const char* const kBodyAttributes[] = {
+    "added_mass",    "reference_point",     "linear_damping", "quadratic_damping",
+    "cross_damping", "cross_damping_total", "moment_fade",    "drag",
+    "drag_area",     "drag_reynolds",       "drag_angular",   "rotational_damping",
+    "volume",        "center_of_buoyancy",  "geoms",          "history"};
 const int kBodyAttributeCount = sizeof(kBodyAttributes) / sizeof(kBodyAttributes[0]);
 
 bool ReadBody(const mjModel* m, int instance, int body, const Medium& medium, bool has_foil,

@@ -42,6 +42,14 @@ void AddDamping(const Damping& damping, const mjtNum nu[6], mjtNum linear_share,
                           quadratic_share * damping.quadratic[6 * i + j] * std::abs(nu[j]);
     }
   }
+  if (damping.fades) {
+    const mjtNum across = std::hypot(nu[0], nu[1]);
+    for (int i = 0; i < 2; ++i) {
+      if (!damping.fade[i]) continue;
+      const mjtNum lost = linear_share * across / (damping.fade[i] + across);
+      for (int j = 0; j < 2; ++j) matrix[6 * (3 + i) + j] -= lost * damping.linear[6 * (3 + i) + j];
+    }
+  }
   for (const CrossTerm& term : damping.cross) {
     matrix[6 * term.row + term.linear] +=
         quadratic_share * term.coefficient * std::abs(nu[term.absolute]);

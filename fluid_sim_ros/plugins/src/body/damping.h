@@ -25,6 +25,10 @@ struct Damping {
   mjtNum linear[36] = {0};     // [N s/m], [N s], [N m s]
   mjtNum quadratic[36] = {0};  // column j multiplies |nu_j| nu_j
   std::vector<CrossTerm> cross;
+  // Speed through the fluid across z at which the linear moments of roll and of pitch by surge and
+  // sway are half of what they would be [m/s]; 0: they do not fade.
+  bool fades = false;
+  mjtNum fade[2] = {0};
 };
 
 // Take off the cross terms, stated as totals, what the convection of an added mass A gives (the
