@@ -13,11 +13,15 @@ and for the model as it comes out of them (``crazyflie_limits``). Two pictures i
 
 The recordings (figure eights in motion capture, crazyflie-data-collection of IMRC, TU Berlin) are
 not part of this repository.
-Run: ``python -m benchmarks.reality.crazyflie_37g [--quick] [--json PATH] [--flights FOLDER]``.
+Run: ``python -m benchmarks.reality.crazyflie_37g [--quick] [--json PATH] [--only PART]
+[--flights FOLDER]``.
 """
 
+import argparse
+import json
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +45,7 @@ from fluid_sim_ros.reality.windows import cut, errors
 FLIGHTS = ROOT.parent / 'shared' / 'reference' / 'flights'
 TRAINED, LEFT_OUT = ('00', '12', '20'), '26'
 MODELS = ('crazyflie', 'crazyflie_37g')
+PARTS = ('errors', 'limits', 'bound', 'smoothed')
 KEYS = ('position_m', 'velocity_m_s', 'attitude_deg')
 #: Bands in which the response to the rotors' moments is measured [Hz].
 BANDS = ((0.3, 2.0), (2.0, 5.0), (5.0, 9.0))
@@ -169,28 +174,12 @@ def draw(found: dict[str, Any], bound: dict[str, Any], path: Path) -> None:
     figure.savefig(path, dpi=110)
 
 
-def main() -> None:
-    """Compare, and write result and picture."""
-    chosen = arguments(__doc__, 'crazyflie_37g', more={'flights': 'folder of the recordings'})
-    folder = Path(chosen.flights) if chosen.flights else FLIGHTS
-    paths = {n: folder / f'crazyflie_figure8_{n}.usd' for n in (*TRAINED, LEFT_OUT)}
-    lost = [path.name for path in paths.values() if not path.exists()]
-    if lost:
-        print(
-            f'crazyflie_37g: the recordings {", ".join(lost)} are not in {folder.name}/ (they are '
-            'not part of this repository; --flights FOLDER): nothing to measure'
-        )
-        sys.exit(0)
-    if chosen.quick:
-        paths = {LEFT_OUT: paths[LEFT_OUT]}
-    flights = {number: read_flight(path) for number, path in paths.items()}
-    smooth = {n: smoothed(read_flight(path, limits.MOCAP)) for n, path in paths.items()}
-    found = {number: errors_of(flight) for number, flight in flights.items()}
+def summary(found: dict[str, Any]) -> dict[str, Any]:
+    """Return what the errors of the left-out flight come to."""
     left = found[LEFT_OUT]
     here = left['crazyflie_37g']['horizons']
     baselines = (left['hold_velocity'], left['crazyflie_37g']['rigid_body'])
-    result = {
-        'trained': TRAINED, 'left_out': LEFT_OUT, 'errors': found, 'targets': TARGETS,
+    return {
         'at_half_a_second': here['0.5'] | {'z_rms_of_g': left['crazyflie_37g']['z_rms_of_g']},
         'times_better_than_literature': min(
             left['crazyflie']['horizons'][h][k] / here[h][k] for h in here for k in KEYS
@@ -202,20 +191,52 @@ def main() -> None:
             f'{key} at {h} s' for h in here for key in KEYS
             if any(here[h][key] >= rows[h][key] for rows in baselines)
         ],
-        'limits': {number: limits_of(flight) for number, flight in flights.items()},
-        'bound': {n: bounds_of(flight, smooth[n]) for n, flight in flights.items()},
     }  # fmt: skip
+
+
+def recordings(chosen: argparse.Namespace) -> dict[str, Path]:
+    """Return the recordings by number; end where they are not there."""
+    folder = Path(chosen.flights) if chosen.flights else FLIGHTS
+    paths = {n: folder / f'crazyflie_figure8_{n}.usd' for n in (*TRAINED, LEFT_OUT)}
+    lost = [path.name for path in paths.values() if not path.exists()]
+    if lost:
+        print(
+            f'crazyflie_37g: the recordings {", ".join(lost)} are not in {folder.name}/ (they are '
+            'not part of this repository; --flights FOLDER): nothing to measure'
+        )
+        sys.exit(0)
+    return {LEFT_OUT: paths[LEFT_OUT]} if chosen.quick else paths
+
+
+def main() -> None:
+    """Compare, and write result and pictures."""
+    chosen = arguments(__doc__, 'crazyflie_37g', PARTS,
+                       more={'flights': 'folder of the recordings'})  # fmt: skip
+    paths = recordings(chosen)
+    flights = {number: read_flight(path) for number, path in paths.items()}
+    smooth = {n: smoothed(read_flight(path, limits.MOCAP)) for n, path in paths.items()}
+    result: dict[str, Any] = {'trained': TRAINED, 'left_out': LEFT_OUT, 'targets': TARGETS}
+    if chosen.only and chosen.json.exists():
+        result |= json.loads(chosen.json.read_text(encoding='utf-8'))
     with tempfile.TemporaryDirectory() as folder:
         models = {
             'crazyflie_37g': 'crazyflie_37g',
             'refitted': limits.write_refitted(Path(folder) / 'refitted.xml'),
         }
-        result['smoothed'] = {n: smooth_of(smooth[n], flights[n], models) for n in flights}
+        measures: dict[str, Callable[[str], dict[str, Any]]] = {
+            'errors': lambda n: errors_of(flights[n]),
+            'limits': lambda n: limits_of(flights[n]),
+            'bound': lambda n: bounds_of(flights[n], smooth[n]),
+            'smoothed': lambda n: smooth_of(smooth[n], flights[n], models),
+        }
+        for part in chosen.only or PARTS:
+            result[part] = result.get(part, {}) | {n: measures[part](n) for n in flights}
+    result |= summary(result['errors'])
     write(chosen.json, result)
-    if not chosen.quick:
-        numbers, curves = limits.remainder_of(smooth[LEFT_OUT].flight, 'crazyflie_37g')
-        limits.draw(numbers, curves, ROOT / 'doc' / 'img' / 'crazyflie_37g_remainder.png')
-        draw(found, result['bound'][LEFT_OUT], ROOT / 'doc' / 'img' / 'crazyflie_37g_reality.png')
+    numbers, curves = limits.remainder_of(smooth[LEFT_OUT].flight, 'crazyflie_37g')
+    limits.draw(numbers, curves, ROOT / 'doc' / 'img' / 'crazyflie_37g_remainder.png')
+    draw(result['errors'], result['bound'][LEFT_OUT],
+         ROOT / 'doc' / 'img' / 'crazyflie_37g_reality.png')  # fmt: skip
 
 
 if __name__ == '__main__':

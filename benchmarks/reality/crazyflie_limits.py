@@ -29,7 +29,7 @@ from fluid_sim_ros.reality.fitting.shooting import error_vectors
 from fluid_sim_ros.reality.fitting.solver import Task
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameters import edit_of, find_parameters
-from fluid_sim_ros.reality.residuals import accelerations
+from fluid_sim_ros.reality.residual.residuals import accelerations
 from fluid_sim_ros.reality.windows import ATTITUDE, VELOCITY, cut, state_at
 
 #: The pose of motion capture in place of the estimate that the vehicle made of it.
