@@ -10,43 +10,49 @@ a result, or an error of ours on one printable line; wrong is a traceback, a cra
 10 s of processor time (or a minute of wall time), memory beyond four times the file and 256 MiB, a
 file touched outside of the working folder, or text that a terminal acts on. Fixed seeds.
 Run: ``python -m benchmarks.robustness.hostile_files [--quick] [--only KIND ...] [--divide N]
-[--more SECONDS]``; with ``--more`` those that follow the ones of the result are judged and added
-to it, for so long, a quarter of it for logs. The result states how many were planned and how many
-of them were judged.
+[--more SECONDS] [--processes N]``; with ``--more`` those that follow the ones of the result are
+judged and added to it, for so long, a quarter of it for logs. The result states how many were
+planned and how many of them were judged.
 """
 
 import json
 import math
 import os
-import subprocess
-import sys
 import tempfile
 import time
 import warnings
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from benchmarks.common import ROOT, arguments, write
+from benchmarks.robustness.workers import Found, Worker, in_portions, serve
 from test.support.hostile.files import KINDS, hostile_file
 from test.support.hostile.foreign.kinds import KINDS as FOREIGN
 from test.support.hostile.foreign.kinds import foreign_file, opened
-from test.support.hostile.judge import MOST_WALL, Outside, Trials, Verdict, judged
+from test.support.hostile.judge import MOST_WALL, Outside, Verdict, judged
+from test.support.hostile.trials import Trials
 
 LOGS, FILES = 20_000, 2_000
 QUICK = 20
-#: Files that one process opens, also where time is limited; a crash costs the rest of its portion.
-PORTION, SMALL_PORTION = 250, 50
+#: Files that a process is asked for at once.
+PORTION = 25
+#: One trial of so many is the process that the product starts; the others are forks of one.
+REAL_TRIALS = 10
+#: Wall time allowed for one file on a busy machine [s].
+PATIENCE = 10 * MOST_WALL
+#: How often the result of a kind so far is written [s].
+EVERY = 300.0
 #: Share of the time of ``--more`` that logs have.
 LOGS_SHARE = 0.25
 
 
-def judge_portion(kind: str, first: int, last: int) -> None:
-    """Judge the files of some seeds; print a line of JSON for each before and after."""
+def judge_files(kind: str) -> None:
+    """Judge the files of a kind whose seeds standard input asks for."""
     warnings.simplefilter('ignore')
     with tempfile.TemporaryDirectory() as folder:
-        trials = Trials(Path(folder) / 'peaks')
+        trials = Trials(Path(folder))
         watched = Path(folder) / 'watched'
         watched.mkdir()
         outside = Outside(watched)
@@ -56,17 +62,19 @@ def judge_portion(kind: str, first: int, last: int) -> None:
             judge = _judge_file(kind)
         else:
             judge = _judge_foreign(kind, outside)
-        for seed in range(first, last):
-            print(json.dumps({'begun': seed}), flush=True)
+
+        def judge_one(seed: int) -> Found:
+            trials.real = seed % REAL_TRIALS == 0
             os.chdir(outside.working)
             verdict, command = judge(seed, outside.working)
             os.chdir('/')
             if outside.changed() or outside.told(verdict):
                 verdict.outcome = 'outside'
             outside.clear()
-            told = vars(verdict) | {'seed': seed, 'command': command}
-            print(json.dumps(told), flush=True)
-        print(json.dumps({'children': trials.peak()}), flush=True)
+            return vars(verdict) | {'seed': seed, 'command': command}
+
+        serve(judge_one, lambda: {'children': trials.peak})
+        trials.close()
 
 
 def _judge_log(folder: Path) -> Any:
@@ -106,32 +114,17 @@ def _judge_foreign(kind: str, outside: Outside) -> Any:
     return judge
 
 
-def run_portion(kind: str, first: int, last: int) -> list[dict[str, Any]]:
-    """Judge some seeds in processes of their own, a new one after each crash."""
-    found = []
-    while first < last:
-        command = [sys.executable, '-m', __spec__.name, '--portion', f'{kind} {first} {last}']
-        patience = MOST_WALL * (last - first)
-        done = subprocess.run(
-            command, cwd=ROOT, capture_output=True, text=True, timeout=patience, check=False,
-            env={'MUJOCO_GL': 'egl', **os.environ},  # MuJoCo chooses when it is imported
-        )  # fmt: skip
-        lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{')]
-        found += [line for line in lines if 'begun' not in line]
-        begun = [line['begun'] for line in lines if 'begun' in line]
-        if done.returncode == 0:
-            break
-        seed = begun[-1] if begun else first
-        words = ' '.join(done.stderr.split())[-300:]
-        found.append(
-            {'outcome': 'crash', 'line': words, 'seconds': 0.0, 'memory': 0, 'seed': seed,
-             'command': kind}
-        )  # fmt: skip
-        first = seed + 1
-    return found
+def told_of(kind: str, portion: list[Found]) -> list[Found]:
+    """Return what became of each file, and what trials took."""
+    ended = {'memory': 0, 'command': kind}  # of one that ended its process
+    return [
+        ended | line | {'line': ' '.join(line['line'].split())[-300:]} if 'outcome' in line
+        else line
+        for line in portion
+    ]  # fmt: skip
 
 
-def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
+def summary(found: list[Found]) -> dict[str, Any]:
     """Return what came of the files of a kind."""
     verdicts = [line for line in found if 'outcome' in line]
     wrong = [line for line in verdicts if line['outcome'] not in ('read', 'refused')]
@@ -152,8 +145,10 @@ def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
-def together(before: dict[str, Any], now: dict[str, Any]) -> dict[str, Any]:
+def together(before: dict[str, Any] | None, now: dict[str, Any]) -> dict[str, Any]:
     """Return the summary of a kind, of what was judged before and now."""
+    if before is None:
+        return now
     most = ('most_seconds', 'most_memory_mib', 'most_memory_of_a_trial_mib')
     return before | {
         'files': before['files'] + now['files'],
@@ -165,19 +160,15 @@ def together(before: dict[str, Any], now: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def judged_kind(
-    kind: str, pool: ThreadPoolExecutor, first: int, last: int, seconds: float
-) -> list[dict[str, Any]]:
-    """Judge the files of some seeds, for so long [s]; return what was printed of each."""
-    end = time.monotonic() + seconds
-    size = PORTION if math.isinf(seconds) else SMALL_PORTION
+def judged_kind(kind: str, seeds: range, seconds: float, processes: int) -> Iterator[list[Found]]:
+    """Judge the files of some seeds, for so long [s]; yield what became of each portion."""
 
-    def portion(begin: int) -> list[dict[str, Any]]:
-        if time.monotonic() > end:
-            return []  # portions begin in order: no later one is judged either
-        return run_portion(kind, begin, min(begin + size, last))
+    def worker() -> Worker:
+        environment = {'MUJOCO_GL': 'egl', **os.environ}  # MuJoCo chooses when it is imported
+        return Worker(__spec__.name, ['--worker', kind], ROOT, environment, PATIENCE)
 
-    return [line for lines in pool.map(portion, range(first, last, size)) for line in lines]
+    for portion in in_portions(worker, seeds, PORTION, seconds, processes):
+        yield told_of(kind, portion)
 
 
 def main() -> None:
@@ -186,40 +177,53 @@ def main() -> None:
     options = arguments(
         __doc__, 'hostile_files', kinds,
         more={
-            'portion': 'of a process: KIND FIRST LAST', 'divide': 'judge one part in so many',
+            'worker': 'be a process that judges a KIND', 'divide': 'judge one part in so many',
+            'processes': 'how many judge at once',
             'more': 'go on with those that follow the ones of the result for so long [s]',
         },
     )  # fmt: skip
-    if options.portion:
-        kind, first, last = options.portion.split()
-        judge_portion(kind, int(first), int(last))
+    if options.worker:
+        judge_files(options.worker)
         return
+    options.json = options.json.resolve()
     kept: dict[str, Any] = {}
     if (options.only or options.more) and options.json.exists():
         kept = json.loads(options.json.read_text(encoding='utf-8')).get('kinds', {})
-    chosen = options.only or kinds
-    others = float(options.more or math.inf) * (1 - LOGS_SHARE) / max(1, len(chosen) - 1)
     result = dict(kept)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for kind in chosen:
-            planned = LOGS if kind == 'log' else FILES
-            count = planned // (QUICK if options.quick else int(options.divide or 1))
-            before = kept.get(kind) if options.more else None
-            first = before['files'] if before else 0
-            seconds = (
-                float(options.more) * LOGS_SHARE if options.more and kind == 'log' else others
-            )
-            found = judged_kind(kind, pool, first, count, seconds)
-            if not found:
-                continue
-            now = {'planned': planned, **summary(found)}
-            result[kind] = together(before, now) if before else now
-            print(kind, {key: result[kind][key] for key in ('files', 'outcomes', 'most_seconds')})
-            write(options.json, {
-                'files': sum(kind['files'] for kind in result.values()),
-                'wrong': sum(kind['wrong'] for kind in result.values()),
-                'kinds': result,
-            })  # fmt: skip
+    chosen = list(options.only or kinds)
+    others = len(chosen) - ('log' in chosen)
+    share = {kind: 1.0 for kind in chosen}
+    if others:
+        share['log'] = others * LOGS_SHARE / (1 - LOGS_SHARE)
+    end = time.monotonic() + float(options.more or math.inf)
+    for at, kind in enumerate(chosen):
+        planned = LOGS if kind == 'log' else FILES
+        count = planned // (QUICK if options.quick else int(options.divide or 1))
+        before = kept.get(kind) if options.more else None
+        left = share[kind] / sum(share[name] for name in chosen[at:])
+        found: list[Found] = []
+        written = time.monotonic()
+        for portion in judged_kind(
+            kind, range(before['files'] if before else 0, count),
+            left * (end - time.monotonic()), int(options.processes or os.cpu_count() or 1),
+        ):  # fmt: skip
+            found += portion
+            if time.monotonic() > written + EVERY:
+                result[kind] = together(before, {'planned': planned, **summary(found)})
+                _write(options.json, result)
+                written = time.monotonic()
+        if found:
+            part = result[kind] = together(before, {'planned': planned, **summary(found)})
+            print(kind, {key: part[key] for key in ('files', 'outcomes', 'most_seconds')})
+            _write(options.json, result)
+
+
+def _write(path: Path, result: dict[str, Any]) -> None:
+    write(path, {
+        'files': sum(kind['files'] for kind in result.values()),
+        'wrong': sum(kind['wrong'] for kind in result.values()),
+        'kinds': result,
+    })  # fmt: skip
 
 
 if __name__ == '__main__':

@@ -8,82 +8,65 @@ gait (``test.support.hostile.scenes``). It is stepped with its sensors, taken ba
 and stepped again, commanded, and reset. Wrong is an error that is not of ours, or of many lines, a
 crash, another flight from the same state, states that are no numbers without a word, or more than
 10 s of processor time; 95 % are to load. Fixed seeds.
-Run: ``python -m benchmarks.robustness.valid_scenes [--quick] [--divide N] [--more SECONDS]``; with
-``--more`` those that follow the ones of the result are judged and added to it, for so long. The
-result states how many were planned and how many of them were judged.
+Run: ``python -m benchmarks.robustness.valid_scenes [--quick] [--divide N] [--more SECONDS]
+[--processes N]``; with ``--more`` those that follow the ones of the result are judged and added
+to it, for so long. The result states how many were planned and how many of them were judged.
 """
 
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 import time
 import traceback
 import warnings
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from benchmarks.common import ROOT, arguments, write
+from benchmarks.robustness.workers import Found, Worker, in_portions, serve
 from fluid_sim_ros.errors import FluidSimError
 from test.support.hostile.scenes.scene import drawn_scene
 from test.support.hostile.scenes.used import used
 
 SCENES, QUICK = 20_000, 100
 MOST_SECONDS = 10.0
-#: Scenes of one process; a crash costs the rest of its portion a new start.
-PORTION = 250
+#: Scenes that a process is asked for at once.
+PORTION = 50
+#: Wall time for each second of processor time that is allowed, on a busy machine.
+PATIENCE = 10
 RIGHT = ('flown', 'diverged', 'refused')
 
 
-def judge_portion(first: int, last: int) -> None:
-    """Judge the scenes of some seeds; print a line of JSON before and after each."""
-    warnings.simplefilter('ignore')
-    with tempfile.TemporaryDirectory() as folder:
-        for seed in range(first, last):
-            print(json.dumps({'begun': seed}), flush=True)
-            path, keys = drawn_scene(seed, Path(folder))
-            told: dict[str, Any] = {'seed': seed, 'line': '', 'keys': sorted(keys)}
-            begin = time.process_time()
-            try:
-                told['outcome'] = used(path, seed)
-            except FluidSimError as error:
-                told['line'] = str(error).removeprefix(str(path))
-                told['outcome'] = 'refused' if str(error).isprintable() else 'unprintable'
-            except Exception as error:  # noqa: BLE001  that is what is looked for
-                told['line'] = ' '.join(traceback.format_exception(error)[-3:])[-500:]
-                told['outcome'] = 'traceback'
-            told['seconds'] = time.process_time() - begin
-            if told['seconds'] > MOST_SECONDS:
-                told['outcome'] = 'slow'
-            print(json.dumps(told), flush=True)
+def judge_scene(seed: int, folder: Path) -> Found:
+    """Judge the scene of a seed, written into a folder."""
+    path, keys = drawn_scene(seed, folder)
+    told: Found = {'seed': seed, 'line': '', 'keys': sorted(keys)}
+    begin = time.process_time()
+    try:
+        told['outcome'] = used(path, seed)
+    except FluidSimError as error:
+        told['line'] = str(error).removeprefix(str(path))
+        told['outcome'] = 'refused' if str(error).isprintable() else 'unprintable'
+    except Exception as error:  # noqa: BLE001  that is what is looked for
+        told['line'] = ' '.join(traceback.format_exception(error)[-3:])[-500:]
+        told['outcome'] = 'traceback'
+    told['seconds'] = time.process_time() - begin
+    if told['seconds'] > MOST_SECONDS:
+        told['outcome'] = 'slow'
+    return told
 
 
-def run_portion(first: int, last: int) -> list[dict[str, Any]]:
-    """Judge some seeds in processes of their own, a new one after each crash."""
-    found: list[dict[str, Any]] = []
-    while first < last:
-        command = [sys.executable, '-m', __spec__.name, '--portion', f'{first} {last}']
-        done = subprocess.run(
-            command, cwd=ROOT, capture_output=True, text=True, check=False,
-            env={'MUJOCO_GL': 'egl', **os.environ},
-        )  # fmt: skip
-        lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{')]
-        found += [line for line in lines if 'outcome' in line]
-        if done.returncode == 0:
-            break
-        begun = [line['begun'] for line in lines if 'begun' in line]
-        seed = begun[-1] if begun else first
-        words = ' '.join(done.stderr.split())[-500:]
-        found.append({'seed': seed, 'outcome': 'crash', 'line': words, 'seconds': 0.0, 'keys': []})
-        first = seed + 1
-    return found
+def told_of(portion: list[Found]) -> list[Found]:
+    """Return what became of each scene."""
+    ended = {'keys': []}  # of one that ended its process
+    found = [ended | line for line in portion if 'outcome' in line]
+    return [line | {'line': ' '.join(line['line'].split())[-500:]} for line in found]
 
 
-def summary(found: list[dict[str, Any]]) -> dict[str, Any]:
+def summary(found: list[Found]) -> dict[str, Any]:
     """Return what came of the scenes."""
     wrong = [line for line in found if line['outcome'] not in RIGHT]
     refused = [line['line'] for line in found if line['outcome'] == 'refused']
@@ -119,25 +102,30 @@ def main() -> None:
     options = arguments(
         __doc__, 'valid_scenes',
         more={
-            'portion': 'of a process: FIRST LAST', 'divide': 'judge one part in so many',
+            'divide': 'judge one part in so many', 'processes': 'how many judge at once',
             'more': 'go on with those that follow the ones of the result for so long [s]',
         },
+        flags={'worker': 'be a process that judges'},
     )  # fmt: skip
-    if options.portion:
-        judge_portion(*map(int, options.portion.split()))
+    if options.worker:
+        warnings.simplefilter('ignore')
+        with tempfile.TemporaryDirectory() as folder:
+            serve(lambda seed: judge_scene(seed, Path(folder)))
         return
     count = SCENES // (QUICK if options.quick else int(options.divide or 1))
     before = json.loads(options.json.read_text(encoding='utf-8')) if options.more else {}
-    end = time.monotonic() + float(options.more or math.inf)
 
-    def judged(first: int) -> list[dict[str, Any]]:
-        if time.monotonic() > end:
-            return []  # portions begin in order: no later one is judged either
-        return run_portion(first, min(first + PORTION, count))
+    def worker() -> Worker:
+        environment = {'MUJOCO_GL': 'egl', **os.environ}
+        return Worker(__spec__.name, ['--worker'], ROOT, environment, PATIENCE * MOST_SECONDS)
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        portions = pool.map(judged, range(before.get('scenes', 0), count, PORTION))
-        found = [line for portion in portions for line in portion]
+    portions = in_portions(
+        worker, range(before.get('scenes', 0), count), PORTION, float(options.more or math.inf),
+        int(options.processes or os.cpu_count() or 1),
+    )  # fmt: skip
+    found = [line for portion in portions for line in told_of(portion)]
+    if not found:
+        sys.exit('none is left to judge')
     result = together(before, summary(found)) if before else summary(found)
     result['loaded_share'] = 1 - result['outcomes'].get('refused', 0) / result['scenes']
     print({key: result[key] for key in ('scenes', 'wrong', 'loaded_share', 'outcomes')})

@@ -16,7 +16,7 @@ from fluid_sim_ros.loop.autopilot_port import AutopilotOptions, Bridge, Surround
 from fluid_sim_ros.loop.pacing import Pacing
 from fluid_sim_ros.loop.runner import NoSource, Runner
 from fluid_sim_ros.loop.shared_lockstep import joined
-from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import NEVER
 

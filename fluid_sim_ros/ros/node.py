@@ -19,8 +19,8 @@ from rclpy.parameter import Parameter
 from fluid_sim_ros.errors import FluidSimError
 from fluid_sim_ros.interruption import leave
 from fluid_sim_ros.loop.request_queue import RequestQueue
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
-from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.parameters import simulator as parameters
 from fluid_sim_ros.ros.process.run import Executable, run_process
 from fluid_sim_ros.ros.services import create_services

@@ -12,11 +12,11 @@ from fluid_sim_ros.errors import CommandError, DivergedError, FluidSimError
 from fluid_sim_ros.loop.foxglove_port import LivePort
 from fluid_sim_ros.loop.request_queue import RequestQueue
 from fluid_sim_ros.loop.runner import Runner
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.autopilot import start_autopilots
 from fluid_sim_ros.ros.foxglove import start_foxglove
 from fluid_sim_ros.ros.health.diagnostics import Diagnostics
 from fluid_sim_ros.ros.health.graph_monitor import GraphMonitor
-from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.inputs import Inputs
 from fluid_sim_ros.ros.outputs import Outputs
 from fluid_sim_ros.ros.pacings import Pacings

@@ -9,8 +9,8 @@ import pytest
 from geometry_msgs.msg import PoseStamped
 
 import fluid_sim_ros
-from fluid_sim_ros.ros.health import throttled_log
-from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
+from fluid_sim_ros.output import throttled_log
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from test.support.ros_processes import Peer, controller, wait_until
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who reaches the page: this machine's own browser, or one that knows the token."""
 
+import socket
 import urllib.error
 import urllib.request
 
@@ -9,10 +10,12 @@ import pytest
 
 pytest.importorskip('viser', reason='the extra view is not installed')
 
-from websockets.exceptions import InvalidStatus
+import viser
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.view.web.front import Server, bound_socket
 
 
@@ -43,6 +46,12 @@ def refused(address, **options):
     with pytest.raises(InvalidStatus) as error, connect(address, **options):
         pass
     return error.value.response.body.decode()
+
+
+def say_nothing_wrong(address, **options):
+    """Connect, and wait until the server closes."""
+    with connect(address, **options) as connection, pytest.raises(ConnectionClosed):
+        connection.recv(timeout=10)
 
 
 def port_of(server):
@@ -110,3 +119,36 @@ def test_a_host_that_is_not_here_is_one_line():
         bound_socket('no-such-host.invalid', 0)
     with pytest.raises(ConfigError, match='cannot listen'):
         bound_socket('192.0.2.1', 0)
+
+
+def test_a_flood_of_connections_that_speak_another_protocol_is_a_line_a_second(capfd):
+    lines, seen = [], []
+    said = ThrottledLog(lines.append)
+
+    def report(key, line):
+        seen.append(key)
+        said(key, line)
+
+    server = Server('127.0.0.1', 0, 'test', report=report)
+    try:
+        address = server.url.replace('http', 'ws', 1)
+        for _ in range(20):
+            say_nothing_wrong(address, subprotocols=['viser-v0'])
+        for _ in range(5):  # no request at all
+            with socket.create_connection(('127.0.0.1', port_of(server))) as connection:
+                connection.sendall(b'\x00\xff\r\n\r\n')
+                connection.recv(1000)
+        version = f'viser-v{viser.__version__}'
+        with connect(address, subprotocols=[version]) as connection:
+            connection.send(b'\xc1no message of viser')
+            with pytest.raises(ConnectionClosed):
+                while True:
+                    connection.recv(timeout=10)
+    finally:
+        server.close()
+    assert seen.count('protocol') == 20 and seen.count('failure') >= 1
+    assert len(lines) < len(seen)
+    assert 'a connection was rejected: it speaks viser-v0, not viser-v' in lines[0]
+    assert all(line.isprintable() for line in lines)
+    told = capfd.readouterr()
+    assert 'viser' not in told.out and 'Traceback' not in told.err

@@ -12,8 +12,8 @@ from fluid_sim_ros.messages.cdr import read_stamped_pair
 from fluid_sim_ros.messages.commands import TWIST
 from fluid_sim_ros.messages.state_topics import ODOMETRY
 from fluid_sim_ros.messages.topic import STATE
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.controllers.states import StampedState, read_odometry
-from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.raw import PolledSubscription
 
 

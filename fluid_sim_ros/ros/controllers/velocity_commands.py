@@ -14,7 +14,7 @@ from fluid_sim_ros.errors import CommandError
 from fluid_sim_ros.messages.cdr import read_pair, read_stamped_pair
 from fluid_sim_ros.messages.commands import TWIST
 from fluid_sim_ros.messages.topic import NEWEST
-from fluid_sim_ros.ros.health.throttled_log import ThrottledLog
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.ros.raw import PolledSubscription
 
 _PLAIN = 'geometry_msgs/msg/Twist'

@@ -12,6 +12,7 @@ and the tunnel is shut.
 import contextlib
 import http
 import io
+import logging
 import os
 import secrets
 import socket
@@ -24,11 +25,15 @@ import websockets.asyncio.server
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from fluid_sim_ros.errors import ConfigError
+from fluid_sim_ros.errors import ConfigError, printable
 from fluid_sim_ros.view.web.guard import Guard, is_loopback
 
+#: What the page of this version of viser asks for.
+_PROTOCOL = f'viser-v{viser.__version__}'
 #: Larger messages than this are taken from no browser [bytes].
 _MOST_BYTES = 1 << 20
+#: Of a line on a failed connection [characters].
+_MOST_WORDS = 300
 
 
 def bound_socket(host: str, port: int) -> socket.socket:
@@ -85,6 +90,8 @@ class Server:
         Handles the connections of the page's script for keys and gamepads; see ``web.steering``.
     script
         JavaScript that is added to the page.
+    report
+        Takes (key, line) of a connection that is rejected or fails; floods come here whole.
 
     Attributes
     ----------
@@ -107,7 +114,9 @@ class Server:
         label: str,
         on_steer: Callable[[Any], Any] | None = None,
         script: str = '',
+        report: Callable[[str, str], object] = lambda key, line: None,
     ) -> None:
+        self._report = report
         listening = bound_socket(host, port)
         port = listening.getsockname()[1]
         token = '' if is_loopback(host) else secrets.token_urlsafe(24)
@@ -136,7 +145,7 @@ class Server:
             inner = options.pop('process_request')
             options['max_size'] = _MOST_BYTES
             return serve(
-                self._routed(handler), sock=listening,
+                self._routed(handler), sock=listening, logger=_logger(self._report),
                 process_request=lambda connection, request: self._answer(
                     connection, request, inner
                 ),
@@ -157,6 +166,11 @@ class Server:
             path = urlsplit(connection.request.path).path
             if path == '/steer' and self._on_steer is not None:
                 await self._on_steer(connection)
+            elif connection.subprotocol != _PROTOCOL:  # viser says it of each, in a line
+                spoken = printable(connection.subprotocol or 'no protocol', 40)
+                words = f'it speaks {spoken}, not {_PROTOCOL}'
+                self._report('protocol', f'a connection was rejected: {words}')
+                await connection.close(1002, words)
             else:
                 await handler(connection)
 
@@ -181,6 +195,28 @@ class Server:
             for name, value in self._guard.headers().items():
                 response.headers[name] = value
         return response
+
+
+class _Failures(logging.Handler):
+    """Reports what websockets logs of connections that fail, one line without a traceback."""
+
+    def __init__(self, report: Callable[[str, str], object]) -> None:
+        super().__init__(logging.WARNING)
+        self._report = report
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Report a record."""
+        error = record.exc_info[1] if record.exc_info else None
+        reason = f' ({type(error).__name__}: {error})' if error else ''
+        line = f'a connection failed: {record.getMessage()}{reason}'
+        self._report('failure', printable(line, _MOST_WORDS))
+
+
+def _logger(report: Callable[[str, str], object]) -> logging.Logger:
+    """Return the logger of a server's connections."""
+    logger = logging.Logger('fluid_sim_ros.view.connections')
+    logger.addHandler(_Failures(report))
+    return logger
 
 
 def _no_tunnel(verbose: bool = True) -> None:

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 
 from fluid_sim_ros.errors import FluidSimError
+from fluid_sim_ros.output.throttled_log import ThrottledLog
 from fluid_sim_ros.view import orders
 from fluid_sim_ros.view.frame import Frame
 from fluid_sim_ros.view.source import Source
@@ -65,11 +66,12 @@ class Page:
         self._source, self._say_aloud = source, say
         self._looks = Looks(next(iter(source.vehicles)))
         title = f'fluid_sim: {source.title}'
+        self._report = report = ThrottledLog(say)
         if orders.Steer in source.takes:
             keys = Steering(source, lambda: self._looks.vehicle, self._say)
-            self.server = Server(host, port, title, keys.serve, script())
+            self.server = Server(host, port, title, keys.serve, script(), report)
         else:
-            self.server = Server(host, port, title)
+            self.server = Server(host, port, title, report=report)
         self.url, self.drawn = self.server.url, 0
         self._generation = -1
         self._remark, self._remark_at = '', 0.0
@@ -140,6 +142,7 @@ class Page:
         last: Frame | None = None
         while not self._ended.is_set():
             begin = time.monotonic()
+            self._report.flush()
             if not self.server.viser.get_clients():
                 self._pace = None
                 self._ended.wait(_IDLE)

@@ -5,23 +5,21 @@
 import io
 import os
 import shutil
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from fluid_sim_ros.errors import FluidSimError
-from fluid_sim_ros.recording.model import trial
 
 #: Content of a file that lies outside.
 _SECRET = 'nobody-has-asked-for-this'
 #: What is allowed: processor time [s], wall time on a busy machine, without that of waiting for a
 #: processor [s], and memory beyond four times the file [bytes].
 MOST_SECONDS, MOST_WALL, MOST_BYTES = 10.0, 60.0, 256 << 20
+#: Processor time of processes that worked for this one and that it did not start itself [s].
+elsewhere: list[float] = []
 
 
 @dataclass
@@ -91,8 +89,8 @@ def judged(action: Callable[[], object], size: int) -> Verdict:
 
 
 def _worked() -> float:
-    """Return the processor time of this process and of those that it started and that ended."""
-    return sum(os.times()[:4])
+    """Return the processor time of this process and of those that worked for it and ended."""
+    return sum(os.times()[:4]) + sum(elsewhere)
 
 
 def _queued() -> float:
@@ -111,50 +109,6 @@ def _peak() -> int:
     status = Path('/proc/self/status').read_text(encoding='ascii')
     line = next(line for line in status.splitlines() if line.startswith('VmHWM'))
     return int(line.split()[1]) << 10
-
-
-#: Starts a command from a small process: what Linux counts as the peak of a child begins with the
-#: memory of whoever started it. Ends as the command does.
-_SMALL = """\
-import os, sys
-child = os.posix_spawn(sys.argv[2], sys.argv[2:], os.environ)
-_, status, used = os.wait4(child, 0)
-with open(sys.argv[1], 'a') as peaks:
-    peaks.write(f'{used.ru_maxrss}\\n')
-code = os.waitstatus_to_exitcode(status)
-if code < 0:
-    os.kill(os.getpid(), -code)
-os._exit(code)
-"""
-
-
-class Trials:
-    """
-    The trials of models, started so that their memory is known.
-
-    Parameters
-    ----------
-    path
-        A file for the numbers.
-
-    """
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        trial.subprocess = self  # type: ignore[assignment]  # it uses run and TimeoutExpired
-
-    TimeoutExpired = subprocess.TimeoutExpired
-
-    def run(self, command: Sequence[str], **options: Any) -> subprocess.CompletedProcess[bytes]:
-        """Run a command as ``subprocess.run`` does."""
-        start = [sys.executable, '-S', '-c', _SMALL, str(self._path)]
-        return subprocess.run([*start, *command], **options)
-
-    def peak(self) -> int:
-        """Return the largest resident memory of a trial so far [bytes]."""
-        if not self._path.exists():
-            return 0
-        return max(map(int, self._path.read_text().split())) << 10
 
 
 class Outside:
