@@ -24,6 +24,8 @@ from pathlib import Path
 from typing import Any
 
 Found = dict[str, Any]
+#: A process that has not begun by then has a fault, also on a busy machine [s of wall time].
+_START = 1800.0
 
 
 def serve(judge: Callable[[int], Found], end: Callable[[], Found] = dict) -> None:
@@ -106,13 +108,15 @@ class Worker:
         process, begun = self._process, first - 1
         assert process.stdin and process.stdout  # they are pipes
         self._hung = False
-        timer = threading.Timer(self._patience * (last - first), self._too_long)
-        timer.start()
+        timer = self._timer(_START)
         try:
             print(first, last, file=process.stdin, flush=True)
             for line in process.stdout:
                 told = json.loads(line)
                 if 'begun' in told:
+                    if begun < first:
+                        timer.cancel()
+                        timer = self._timer(self._patience * (last - first))
                     begun = told['begun']
                     continue
                 found.append(told)
@@ -123,6 +127,11 @@ class Worker:
         finally:
             timer.cancel()
         return begun
+
+    def _timer(self, seconds: float) -> threading.Timer:
+        timer = threading.Timer(seconds, self._too_long)
+        timer.start()
+        return timer
 
     def _too_long(self) -> None:
         self._hung = True

@@ -18,6 +18,14 @@ KINDS = (
     | {kind: settings.ENDINGS.get(kind, 'yaml') for kind in settings.KINDS}
 )
 
+#: Kind -> what makes a file of it, of the kind, choices, and the path of a file outside.
+_MAKERS: dict[str, Callable[[str, Random, str], bytes]] = {
+    **dict.fromkeys(meshes.KINDS, meshes.hostile_mesh),
+    **dict.fromkeys(robots.KINDS, robots.hostile_robot),
+    **dict.fromkeys(flights.KINDS, lambda kind, random, _: flights.hostile_flight(kind, random)),
+    **dict.fromkeys(settings.KINDS, settings.hostile_settings),
+}
+
 
 def foreign_file(kind: str, seed: int, folder: Path, outside: Path) -> Path:
     """
@@ -37,15 +45,7 @@ def foreign_file(kind: str, seed: int, folder: Path, outside: Path) -> Path:
     """
     random = Random(f'{kind} {seed}')
     path = folder / f'a.{KINDS[kind]}'
-    if kind in meshes.KINDS:
-        data = meshes.hostile_mesh(kind, random, str(outside))
-    elif kind in robots.KINDS:
-        data = robots.hostile_robot(kind, random, str(outside))
-    elif kind in flights.KINDS:
-        data = flights.hostile_flight(kind, random)
-    else:
-        data = settings.hostile_settings(kind, random, str(outside))
-    path.write_bytes(data)
+    path.write_bytes(_MAKERS[kind](kind, random, str(outside)))
     return path
 
 
