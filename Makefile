@@ -12,7 +12,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # The tests run three at a time, since many wait for other processes; more threads inside numpy
 # would only get in each other's way.
 PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q --numprocesses 3 \
-	--dist loadfile
+	--dist loadfile --no-loadscope-reorder
 
 help:
 	@echo 'make demo       quadrotor in a gust: simulator and controller over ROS 2; writes out/demo/'

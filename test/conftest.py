@@ -15,6 +15,13 @@ from hypothesis import settings
 
 #: Domains that tests use; the demo picks from 61 to 100, so that neither hears the other.
 DOMAINS = range(1, 61)
+#: Files whose tests take the longest, most of it waiting.
+LONG = (
+    'mavlink/px4/test_closed_loops.py', 'ros/test_node.py', 'recording/test_render.py',
+    'mavlink/test_autopilot_node.py', 'new_vehicle/test_import.py', 'ros/test_controllers.py',
+    'mavlink/ardupilot/test_closed_loops.py', 'ros/test_lockstep.py', 'lab/test_advise.py',
+    'ros/test_node_recording.py', 'recording/test_resimulate.py', 'reality/test_fit.py',
+)  # fmt: skip
 _LOCKS = Path(tempfile.gettempdir()) / f'fluid_sim_ros_test_domains_{os.getuid()}'
 _turn = count()
 # MuJoCo chooses its renderer when it is imported; tests have no display
@@ -23,6 +30,11 @@ os.environ.setdefault('MUJOCO_GL', 'egl')
 # the same examples in every run, at whatever pace; no files beside the tests
 settings.register_profile('fixed', derandomize=True, deadline=None, database=None)
 settings.load_profile('fixed')
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the longest files: at the end one process alone would be at work on each."""
+    items.sort(key=lambda item: not item.path.as_posix().endswith(LONG))
 
 
 @contextmanager

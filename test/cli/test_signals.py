@@ -99,7 +99,7 @@ def test_what_is_run_with_m_takes_signals_from_its_first_line(tmp_path, module, 
 def test_signals_at_seeded_moments_of_start_flight_and_end(tmp_path):
     killer, chance = Killer(tmp_path), random.Random(15)
     kills = []
-    for name, count in (('run', 4), ('node', 3), ('resimulate', 1), ('sweep', 1)):
+    for name, count in (('run', 3), ('node', 2), ('resimulate', 1), ('sweep', 1)):
         for i in range(count):
             number = (INT, TERM, KILL)[i % 3]
             kills.append(killer.kill(name, number, chance.uniform(0.0, 1.6)))

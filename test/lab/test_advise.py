@@ -115,7 +115,7 @@ def test_apply_writes_the_choice_and_keeps_the_rest(tmp_path, capsys):
     path = tmp_path / 'mine.yaml'
     path.write_text(STATED)
     for tolerance in ('0.05', '0.01'):
-        arguments = ['advise', str(path), '--tolerance', tolerance, '--duration', '1', '--apply']
+        arguments = ['advise', str(path), '--tolerance', tolerance, '--duration', '.5', '--apply']
         assert main([*arguments, '--json', '-']) == 0
         result = json.loads(capsys.readouterr().out)
     text = path.read_text()
@@ -175,7 +175,7 @@ def test_a_motion_that_forgets_its_start_is_judged_by_its_regime():
     assert found.metric_name == 'regime'
 
 
-KEPT = ['advise', '--tolerance', '0.05', '--duration', '1', '--keep']
+KEPT = ['advise', '--tolerance', '0.05', '--duration', '.5', '--keep']
 
 
 def test_advice_that_is_kept_changes_nothing_until_it_is_asked_for(tmp_path, capsys):

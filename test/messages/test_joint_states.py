@@ -8,6 +8,7 @@ import pytest
 from fluid_sim_ros import Simulation, scene_names
 from fluid_sim_ros.messages.cdr import read_joint_state
 from fluid_sim_ros.messages.state_topics import DEFAULTS, StateTopics
+from test.support.volumes import quick
 
 JOINTS = {
     'remus100': ['rudder', 'planes'],
@@ -43,7 +44,7 @@ def test_joint_states_hold_position_velocity_and_torque_of_the_joints(scene):
     assert np.abs(message.position[: len(joints)]).max() > 1e-3
 
 
-@pytest.mark.parametrize('scene', scene_names())
+@pytest.mark.parametrize('scene', quick(scene_names(), *set(scene_names()) - {'fleet_swarm'}))
 def test_every_joint_of_a_vehicle_is_named(scene):
     simulation = Simulation(scene)
     model = simulation.model

@@ -35,7 +35,7 @@ def test_hover_command_is_weight_less_the_air_it_displaces():
     assert np.abs(simulation.data.qvel).max() < 1e-6
 
 
-@pytest.mark.parametrize('tilt_deg', [5, 15])
+@pytest.mark.parametrize('tilt_deg', [5, pytest.param(15, marks=pytest.mark.full)])
 def test_speed_against_tilt_in_air(tilt_deg):
     _, measured, solved = bench.level_flight(tilt_deg)
     assert measured == pytest.approx(solved, rel=SHARE)

@@ -44,7 +44,7 @@ def test_allan_deviation_of_the_bias_is_its_walk():
 
 def test_both_together_cross_where_they_should():
     density, walk = 1e-3, 1e-3
-    readings = sequence(400_000, density=density, bias_walk=walk, axes=8)[0]
+    readings = sequence(100_000, density=density, bias_walk=walk, axes=8)[0]
     tau = np.sqrt(3) * density / walk  # where the two parts of the variance are equal
     mean = np.mean([allan_deviation(axis, round(tau * RATE)) ** 2 for axis in readings.T])
     assert np.sqrt(mean) == pytest.approx(np.sqrt(2 * density**2 / tau), rel=0.1)
