@@ -3,13 +3,14 @@
 """
 Time from an odometry's publication to the controller's answer, between two processes.
 
-A publisher sends hover states in ping-pong with a child process: first with an echo that answers
-with constant bytes (the floor that the middleware sets on this host), then with each controller.
-The ratio to the echo is what the controller adds. Run:
-``python -m benchmarks.node.controller_latency [--quick] [--json PATH]``.
+A publisher sends hover states in ping-pong with child processes, in blocks in turns: an echo that
+answers with constant bytes (the floor that the middleware sets on this host), and each
+controller. What a controller adds is the difference to the echo: of the medians, of the 10 %
+quantiles (what it takes when nothing else wants the processors), and of the processor times of
+the children for an answer. With ``--against FOLDER`` the controllers of another checkout take
+part in the same run.
 """
 
-import argparse
 import os
 import signal
 import statistics
@@ -21,29 +22,30 @@ from pathlib import Path
 import rclpy
 from nav_msgs.msg import Odometry
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
-from benchmarks.common import RESULTS, write
+from benchmarks.common import ROOT, arguments, write
 from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController
 from fluid_sim_ros.simulation.plant import plant_of
 
-RESULT = RESULTS / 'controller_latency.json'
-ROUNDS, QUICK_ROUNDS, WARM_UP = 5000, 1000, 200
+ROUNDS, QUICK_ROUNDS, BLOCK, WARM_UP = 5000, 1000, 100, 200
 RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 CASES = {
-    'echo': (None, 'x500', 1.5),
+    'echo': ('', 'x500', 1.5),
     'quad_controller': ('fluid_sim_ros.ros.controllers.quad', 'x500', 1.5),
     'rov_controller': ('fluid_sim_ros.ros.controllers.rov', 'bluerov2_heavy', -5.0),
 }
+_BEFORE = ' before'
 
 
 def echo() -> None:
     """Answer each odometry with constant bytes until the process is ended."""
-    rclpy.init(args=[])
+    rclpy.init(args=sys.argv)
     node = rclpy.create_node('echo')
     inward = node.create_subscription(Odometry, 'x500/odom', lambda _: None, RELIABLE, raw=True)
     outward = node.create_publisher(JointState, 'x500/cmd/thrust_stamped', RELIABLE).handle
@@ -57,52 +59,96 @@ def echo() -> None:
             outward.publish_raw(answer)
 
 
-def ping_pong(vehicle: str, height: float, rounds: int) -> list[float]:
-    """Return the time of each round trip [s]."""
-    node = rclpy.create_node('odometry_source')
-    source = node.create_publisher(Odometry, f'{vehicle}/odom', RELIABLE).handle
-    answers = node.create_subscription(
-        JointState, f'{vehicle}/cmd/thrust_stamped', lambda _: None, RELIABLE, raw=True
-    )
-    waiting = _rclpy.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
-    state = Odometry()
-    state.pose.pose.position.z = height
-    state.pose.pose.orientation.w = 1.0
-    times = []
-    for i in range(rounds + WARM_UP):
-        state.header.stamp.sec, state.header.stamp.nanosec = divmod(10_000_000 * i, 1_000_000_000)
-        data = serialize_message(state)
+class Partner:
+    """
+    A child process that answers, and this end of its topics.
+
+    Parameters
+    ----------
+    node
+        Owner of this end.
+    module, vehicle, height
+        Controller ('' for the echo), its vehicle, and the height at which that hovers [m].
+    namespace, folder
+        Of its topics, and the checkout that its code is from.
+
+    """
+
+    def __init__(
+        self, node: Node, module: str, vehicle: str, height: float, namespace: str, folder: Path
+    ) -> None:
+        own = [sys.executable, str(Path(__file__)), '--echo']
+        command = [sys.executable, '-m', module] if module else own
+        self._child = subprocess.Popen(
+            [*command, '--ros-args', '-r', f'__ns:=/{namespace}'], stderr=subprocess.DEVNULL,
+            cwd=folder, env={**os.environ, 'PYTHONPATH': str(folder)},
+        )  # fmt: skip
+        self._clock = (~self._child.pid << 3) | 2  # of its processor time, see clock_getcpuclockid
+        self._context = node.context.handle
+        topic = f'/{namespace}/{vehicle}'
+        self._source = node.create_publisher(Odometry, f'{topic}/odom', RELIABLE).handle
+        self._answers = node.create_subscription(
+            JointState, f'{topic}/cmd/thrust_stamped', lambda _: None, RELIABLE, raw=True
+        ).handle
+        self._waiting = _rclpy.WaitSet(1, 0, 0, 0, 0, 0, self._context)
+        self._state = Odometry()
+        self._state.pose.pose.position.z = height
+        self._state.pose.pose.orientation.w = 1.0
+        self._count = 0
+        self.times: list[float] = []
+        self.processor_s = 0.0
+
+    def begin(self) -> None:
+        """Wait for its first answer, and warm up."""
+        deadline = time.monotonic() + 60.0
+        while self._once(0.2) is None:
+            if time.monotonic() > deadline:
+                raise SystemExit(f'no answer from {self._child.args}')
+        time.sleep(0.3)  # let answers to repeated first states arrive
+        while self._answers.take_message(JointState, True):
+            pass
+        self.block(WARM_UP)
+        self.times, self.processor_s = [], 0.0
+
+    def block(self, rounds: int) -> None:
+        """Measure round trips."""
+        before = time.clock_gettime(self._clock)
+        for _ in range(rounds):
+            took = self._once(20.0)
+            if took is None:
+                raise SystemExit(f'no answer from {self._child.args}')
+            self.times.append(took)
+        self.processor_s += time.clock_gettime(self._clock) - before
+
+    def _once(self, patience: float) -> float | None:
+        self._count += 1
+        stamp = self._state.header.stamp
+        stamp.sec, stamp.nanosec = divmod(10_000_000 * self._count, 1_000_000_000)
+        data = serialize_message(self._state)
         begin = time.perf_counter()
-        source.publish_raw(data)
-        deadline = begin + 20.0
-        while not answers.handle.take_message(JointState, True):
-            waiting.clear_entities()
-            waiting.add_subscription(answers.handle)
-            waiting.wait(int(1e8))
-            now = time.perf_counter()
-            if now > deadline:
-                raise SystemExit(f'no answer from the controller of {vehicle}')
-            if i == 0:
-                source.publish_raw(data)  # the child may have joined after the first
-        times.append(time.perf_counter() - begin)
-        if i == 0:
-            time.sleep(0.3)  # let answers to repeated first states arrive
-            while answers.handle.take_message(JointState, True):
-                pass
-    node.destroy_node()
-    return times[WARM_UP:]
+        self._source.publish_raw(data)
+        while not self._answers.take_message(JointState, True):
+            self._waiting.clear_entities()
+            self._waiting.add_subscription(self._answers)
+            self._waiting.wait(int(1e8))
+            if time.perf_counter() > begin + patience:
+                return None
+        return time.perf_counter() - begin
 
+    def end(self) -> None:
+        """End the child."""
+        self._child.send_signal(signal.SIGTERM)
+        self._child.wait(10)
 
-def measure(module: str | None, vehicle: str, height: float, rounds: int) -> list[float]:
-    """Run one child and return the round-trip times [s]."""
-    own = [sys.executable, str(Path(__file__)), '--echo']
-    command = [sys.executable, '-m', module] if module else own
-    child = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    try:
-        return ping_pong(vehicle, height, rounds)
-    finally:
-        child.send_signal(signal.SIGTERM)
-        child.wait(10)
+    def row(self) -> dict[str, float]:
+        """Return its numbers [us]."""
+        times = sorted(self.times)
+        return {
+            'median_us': round(1e6 * statistics.median(times), 1),
+            'p10_us': round(1e6 * times[len(times) // 10], 1),
+            'p99_us': round(1e6 * times[int(0.99 * len(times))], 1),
+            'processor_us': round(1e6 * self.processor_s / len(times), 1),
+        }
 
 
 def law_steps(rounds: int) -> dict[str, float]:
@@ -131,33 +177,41 @@ def law_steps(rounds: int) -> dict[str, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=(__doc__ or '').split('\n\n')[0])
-    parser.add_argument('--json', type=Path, default=RESULT, help='where to write the result')
-    parser.add_argument('--quick', action='store_true', help=f'{QUICK_ROUNDS} rounds each')
-    parser.add_argument('--echo', action='store_true', help=argparse.SUPPRESS)
-    options = parser.parse_args()
+    options = arguments(__doc__, 'controller_latency', more={'against': 'another checkout, built'})
     os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 100))
-    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    if options.echo:
-        echo()
     rounds = QUICK_ROUNDS if options.quick else ROUNDS
     rclpy.init(args=[])
-    rows: dict[str, dict[str, float]] = {}
-    for name, (module, vehicle, height) in CASES.items():
-        times = sorted(measure(module, vehicle, height, rounds))
-        median = statistics.median(times)
-        rows[name] = {
-            'median_us': round(1e6 * median, 1),
-            'p99_us': round(1e6 * times[int(0.99 * len(times))], 1),
-        }
-        rows[name]['ratio_to_echo'] = round(rows[name]['median_us'] / rows['echo']['median_us'], 2)
-        rows[name]['added_us'] = round(rows[name]['median_us'] - rows['echo']['median_us'], 1)
-        print(f'{name:16}', rows[name])
+    node = rclpy.create_node('odometry_source')
+    wanted = {name: (*case, ROOT) for name, case in CASES.items()}
+    if options.against:
+        folder = Path(options.against).resolve()
+        wanted |= {f'{n}{_BEFORE}': (*case, folder) for n, case in CASES.items() if case[0]}
+    partners: dict[str, Partner] = {}
+    try:
+        for i, (name, (*case, folder)) in enumerate(wanted.items()):
+            partners[name] = Partner(node, *case, f'case_{i}', folder)
+            partners[name].begin()
+        for _ in range(rounds // BLOCK):
+            for partner in partners.values():
+                partner.block(BLOCK)
+    finally:
+        for partner in partners.values():
+            partner.end()
     rclpy.shutdown()
+    rows = {name: partner.row() for name, partner in partners.items()}
+    floor = rows['echo']
+    for name, row in rows.items():
+        row['ratio_to_echo'] = round(row['median_us'] / floor['median_us'], 2)
+        row['added_us'] = round(row['median_us'] - floor['median_us'], 1)
+        row['added_p10_us'] = round(row['p10_us'] - floor['p10_us'], 1)
+        row['added_processor_us'] = round(row['processor_us'] - floor['processor_us'], 1)
+        print(f'{name:22}', row)
+    before = {name: rows.pop(name) for name in list(rows) if name.endswith(_BEFORE)}
     result = {
         'what': 'round trip odometry -> thrust command between two processes, wall time',
         'rounds': rounds,
         'cases': rows,
+        **({'before': before} if before else {}),
         'law_step_us': law_steps(rounds),
     }
     write(options.json, result)
@@ -165,4 +219,7 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    main()
+    if '--echo' in sys.argv:
+        echo()
+    else:
+        main()

@@ -3,6 +3,7 @@
 """ctypes binding of the compiled tick: messages filled and published (plugins/src/tick/)."""
 
 import ctypes
+import weakref
 from collections.abc import Callable
 from functools import cache
 from typing import ClassVar
@@ -133,6 +134,7 @@ class PublishQueue:
     def __init__(self, functions: tuple[int, int, int], size: int) -> None:
         self._library = tick_library()
         self.address = self._library.publishing(*functions, size)
+        self._free = weakref.finalize(self, self._library.free, self.address)
         self.threaded = False
 
     def start(self) -> None:
@@ -190,6 +192,5 @@ class PublishQueue:
 
     def free(self) -> None:
         """Release it; whoever holds its address must not use it any more."""
-        if self.address:
-            self._library.free(self.address)
-            self.address = 0
+        self._free()
+        self.address, self.threaded = 0, False
