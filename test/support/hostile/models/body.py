@@ -114,7 +114,23 @@ def _damping(draw: Draw) -> Keys:
         keys |= {'cross_damping_total': 'true'} if total else draw.some(
             {'cross_damping_total': 'false'}, 0.2
         )  # fmt: skip
+    if draw.yes(0.2):
+        keys |= _fading(draw)
     return keys
+
+
+def _fading(draw: Draw) -> Keys:
+    """Draw a damping with moments by surge and sway that fade, and no force that mirrors them."""
+    diagonal = [draw.size(1e-3, 100) for _ in range(6)]
+    matrix, fade = np.diag(diagonal), [0.0, 0.0]
+    for i in draw.sample((0, 1), draw.randrange(1, 3)):
+        column = draw.choice((0, 1))
+        # semi-definite: below the geometric mean of what is on the diagonal
+        matrix[3 + i, column] = 0.5 * draw.choice((-1, 1)) * np.sqrt(
+            diagonal[3 + i] * diagonal[column]
+        )  # fmt: skip
+        fade[i] = draw.size(1e-3, 10, far=(1e-300, 1e300))
+    return {'linear_damping': written(matrix), 'moment_fade': written(fade)}
 
 
 def _quadratic(draw: Draw) -> str:
