@@ -183,11 +183,18 @@ def test_a_wrong_setting_is_refused():
             measure(case, timesteps=(timestep,))
 
 
-def test_the_command_writes_files_that_can_be_drawn_again(tmp_path, capsys):
-    out = tmp_path / 'first'
+@pytest.fixture(scope='module')
+def first_chart(tmp_path_factory):
+    """Return the folder of a chart by the command, and the files that it names."""
+    out = tmp_path_factory.mktemp('chart') / 'first'
+    said = out.with_name('said.json')
     arguments = ['chart', 'spin_down', '--timesteps', '.02', '.01', '--rounds', '2']
-    assert main([*arguments, '--out', str(out), '--json', '-']) == 0
-    files = json.loads(capsys.readouterr().out)['files']
+    assert main([*arguments, '--out', str(out), '--json', str(said)]) == 0
+    return out, json.loads(said.read_text())['files']
+
+
+def test_the_command_writes_files_that_can_be_drawn_again(first_chart, tmp_path):
+    out, files = first_chart
     assert [f.rsplit('/', 1)[1] for f in files] == [
         'spin_down.json', 'spin_down.csv', 'spin_down.png', 'chart.html',
     ]  # fmt: skip
@@ -204,10 +211,8 @@ def test_the_command_writes_files_that_can_be_drawn_again(tmp_path, capsys):
     assert 'DATA' not in (out / 'chart.html').read_text()
 
 
-def test_times_can_be_measured_again_for_errors_that_are_there(tmp_path, capsys):
-    first, again = tmp_path / 'first', tmp_path / 'again'
-    arguments = ['chart', 'spin_down', '--timesteps', '.02', '.01', '--rounds', '2', '--out']
-    assert main([*arguments, str(first)]) == 0
+def test_times_can_be_measured_again_for_errors_that_are_there(first_chart, tmp_path, capsys):
+    (first, _), again = first_chart, tmp_path / 'again'
     file = str(first / 'spin_down.json')
     arguments = ['chart', '--from', file, '--time-again', '--rounds', '3', '--out', str(again)]
     assert main(arguments) == 0
