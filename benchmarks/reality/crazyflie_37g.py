@@ -146,7 +146,7 @@ def draw(found: dict[str, Any], bound: dict[str, Any], path: Path) -> None:
     mpl.use('Agg')
     from matplotlib import pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(10, 3.4), layout='constrained')
+    figure, axes = plt.subplots(1, 3, figsize=(10, 4.0), layout='constrained')
     rows = found[LEFT_OUT]
     lines = [
         ('crazyflie (literature)', rows['crazyflie']['horizons'], 's--', 'tab:gray'),
@@ -170,7 +170,8 @@ def draw(found: dict[str, Any], bound: dict[str, Any], path: Path) -> None:
         axis.set_xticks(HORIZONS, [f'{h:g}' for h in HORIZONS])
         axis.minorticks_off()
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize=6)
+    shown, names = axes[0].get_legend_handles_labels()
+    figure.legend(shown, names, loc='outside lower center', ncols=4, fontsize=7)
     figure.savefig(path, dpi=110)
 
 
