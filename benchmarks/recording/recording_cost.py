@@ -64,7 +64,7 @@ NODE = textwrap.dedent("""
         for topic in self.topics:
             chosen = any(fnmatchcase(topic.name, p) for p in patterns)
             topic.subscribed = chosen and topic.publisher is not None
-        self._active = [t for t in self.topics if t.subscribed]
+        self.choose()
     outputs.Outputs.refresh = published
     poll, command = inputs.Inputs.poll, serialize_message(Float64MultiArray(data=[1.0] * 8))
     def commanded(self, simulation):
@@ -75,18 +75,18 @@ NODE = textwrap.dedent("""
     inputs.Inputs.poll = commanded
 
     def writer_state(tap):
-        return open(f'/proc/{tap._process.pid}/stat').read().rsplit(')', 1)[1].split()
+        return open(f'/proc/{tap.writer._process.pid}/stat').read().rsplit(')', 1)[1].split()
 
     def writer_time(tap):
         fields = writer_state(tap)
         return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
     def in_pipe(tap):
-        return int.from_bytes(fcntl.ioctl(tap._pipe, termios.FIONREAD, bytes(4)), 'little')
+        return int.from_bytes(fcntl.ioctl(tap.writer._pipe, termios.FIONREAD, bytes(4)), 'little')
 
     def drain(tap):
         tap.flush(now=True)
-        while tap._queue or in_pipe(tap) or writer_state(tap)[0] != 'S':
+        while tap.writer._queue or in_pipe(tap) or writer_state(tap)[0] != 'S':
             time.sleep(1e-4)
             tap.flush(now=True)
 
@@ -104,7 +104,8 @@ NODE = textwrap.dedent("""
             self.tap = outputs.tap = self.inputs.tap = self._diagnostics.tap = present
             for topic, place in zip(outputs.topics, places):
                 topic.record = place if recorded else -1
-            os.kill(tap._process.pid, signal.SIGCONT if recorded else signal.SIGSTOP)
+            outputs.choose()
+            os.kill(tap.writer._process.pid, signal.SIGCONT if recorded else signal.SIGSTOP)
             start, used = time.perf_counter(), time.process_time()
             self.runner.run(self.simulation.tick + step)
             wall, own = time.perf_counter() - start, time.process_time() - used
@@ -113,7 +114,7 @@ NODE = textwrap.dedent("""
             waited = time.perf_counter() - start
             results.append([recorded, wall / seconds, own / seconds, waited / seconds])
         self.tap = outputs.tap = self.inputs.tap = self._diagnostics.tap = tap
-        os.kill(tap._process.pid, signal.SIGCONT)
+        os.kill(tap.writer._process.pid, signal.SIGCONT)
         written = (writer_time(tap) - begin) / (seconds * blocks / 2)
         found = {'dropped': tap.dropped, 'fault': tap.fault, 'writer': written, 'blocks': results}
         print(json.dumps(found), flush=True)

@@ -4,6 +4,7 @@
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -233,6 +234,18 @@ class Outputs:
             topic.subscribed = heard and not (topic.state.for_display or topic.state.once)
             if heard and topic.state.for_display:
                 shown.append(topic)
+        self.choose(shown)
+
+    def choose(self, shown: Sequence[Topic] = ()) -> None:
+        """
+        Have what is subscribed to or recorded made from now on.
+
+        Parameters
+        ----------
+        shown
+            Topics for display that somebody looks at.
+
+        """
         active = {
             place: topic for place, topic in enumerate(self.topics)
             if topic.subscribed or (topic.record >= 0 and not topic.state.once)
