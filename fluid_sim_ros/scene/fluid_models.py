@@ -6,7 +6,7 @@ from pathlib import Path
 
 import mujoco
 
-from fluid_sim_ros.errors import ConfigError, ModelError
+from fluid_sim_ros.errors import ConfigError, ModelError, printable
 from fluid_sim_ros.plugins.config import BODY, FOIL, THRUSTER, medium_of, plugin_of_body
 from fluid_sim_ros.plugins.messages import load_error_line
 from fluid_sim_ros.scene.finite import check_numbers
@@ -34,7 +34,8 @@ def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
     Raises
     ------
     ModelError
-        For a spec that does not compile, or whose numbers are none: one line that names the file.
+        For a spec that does not compile, whose numbers are none, or whose names are no UTF-8: one
+        line that names the file.
 
     """
     try:
@@ -42,7 +43,18 @@ def compile_spec(spec: mujoco.MjSpec, path: Path) -> mujoco.MjModel:
     except ValueError as error:
         raise ModelError(f'{path}: {load_error_line(error)}') from None
     check_numbers(model, path)
+    _check_names(model, path)
     return model
+
+
+def _check_names(model: mujoco.MjModel, path: Path) -> None:
+    """Refuse names that MuJoCo takes and that its bindings cannot tell."""
+    for name in model.names.split(b'\0'):
+        try:
+            name.decode()
+        except UnicodeDecodeError:
+            shown = printable(name.decode('utf-8', 'backslashreplace'), 100)
+            raise ModelError(f"{path}: name '{shown}': allowed is UTF-8") from None
 
 
 def force_fluid(spec: mujoco.MjSpec, fluid: str, path: Path) -> None:

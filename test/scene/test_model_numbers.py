@@ -56,3 +56,13 @@ def test_a_saved_state_from_which_no_positions_come_is_refused(number, at, tmp_p
     with pytest.raises(FluidSimError, match='no flight goes on from it'):
         simulation.load_state(state)
     return None
+
+
+def test_a_name_that_is_no_utf_8_is_one_line(tmp_path):
+    (tmp_path / 'm.xml').write_bytes(
+        b'<mujoco><worldbody><body name="b"><freejoint/><geom size=".1"/><site name="s"/></body>'
+        b'</worldbody><actuator><motor name="a\xa4b" site="s"/></actuator></mujoco>'
+    )
+    with pytest.raises(ModelError, match=r"name 'a\\xa4b': allowed is UTF-8") as error:
+        Scene.load(tmp_path / 'm.xml').compile()
+    assert str(error.value).isprintable()
