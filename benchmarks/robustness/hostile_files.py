@@ -16,9 +16,11 @@ judged and added to it, for so long, a quarter of it for logs. The result states
 planned and how many of them were judged.
 """
 
+import contextlib
 import json
 import math
 import os
+import sys
 import tempfile
 import time
 import warnings
@@ -92,8 +94,9 @@ def _judge_log(folder: Path) -> Any:
     from test.support.recorded_flights import record_flight
 
     record_flight(folder / 'flight.mcap', 'quadrotor', seconds=0.5, seed=1)
-    # the libraries that draw take 260 MiB, whatever is drawn
-    COMMANDS['render'][1](folder / 'flight.mcap', folder)
+    # the libraries that draw take 260 MiB, whatever is drawn; what it prints is no worker's line
+    with contextlib.redirect_stdout(sys.stderr):
+        COMMANDS['render'][1](folder / 'flight.mcap', folder)
     mutator = Mutator(open_log(folder / 'flight.mcap'))
 
     def judge(seed: int, working: Path) -> tuple[Verdict, str]:

@@ -8,6 +8,8 @@ import textwrap
 import pytest
 
 from benchmarks.robustness.workers import Worker, in_portions
+from test.support.hostile.files import KINDS as FILES
+from test.support.hostile.foreign.kinds import KINDS as FOREIGN
 from test.support.paths import ROOT
 
 _JUDGE = """
@@ -66,3 +68,17 @@ def test_a_worker_that_cannot_start_is_an_error(made):
     with pytest.raises(RuntimeError, match='no such thing'):
         worker.judged(0, 3)
     worker.close()
+
+
+@pytest.mark.parametrize(
+    'kind', ['yaml', *(pytest.param(k, marks=pytest.mark.full) for k in ('log', *FILES, *FOREIGN))]
+)
+def test_a_worker_of_each_kind_of_hostile_file_tells_of_its_seeds(kind):
+    environment = {'MUJOCO_GL': 'egl', **os.environ, 'PYTHONPATH': str(ROOT)}
+    module = 'benchmarks.robustness.hostile_files'
+    worker = Worker(module, ['--worker', kind], ROOT, environment, patience=60)
+    try:
+        told = worker.judged(0, 2) + worker.judged(2, 3)
+    finally:
+        worker.close()
+    assert [line['seed'] for line in told if 'outcome' in line] == [0, 1, 2]
