@@ -11,7 +11,7 @@ import pytest
 
 from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.model import trial
-from test.support.hostile.judge import Trials
+from test.support.hostile.trials import Trials
 from test.support.recorded_flights import record_flight
 
 #: Each takes 10 to 60 MiB.
@@ -57,9 +57,9 @@ def test_opening_a_log_imports_nothing_heavy(action, log, tmp_path):
 def test_memory_of_a_trial(log, tmp_path, monkeypatch):
     """Its model may take ``model_bytes`` more: together below 256 MiB."""
     monkeypatch.setattr(trial, 'subprocess', subprocess)  # put back at the end
-    trials = Trials(tmp_path / 'peaks')
+    trials = Trials(tmp_path)
     trial.try_model(log)
-    assert 40 << 20 < trials.peak() < MOST_OF_A_TRIAL
+    assert 40 << 20 < trials.peak < MOST_OF_A_TRIAL
     # a second one is spared, until the file is another
     monkeypatch.setattr(trial, 'sys', SimpleNamespace(executable='/bin/false'))
     trial.try_model(log)
