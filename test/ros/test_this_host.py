@@ -31,24 +31,27 @@ print('reached' if heard and command.get_subscription_count() else 'alone')
 """
 #: Asks the UDP ports that the first participants of a domain use whether something listens.
 _PROBE = """
-import os, socket, sys
+import os, socket, sys, time
 base = 7400 + 250 * int(os.environ['ROS_DOMAIN_ID'])
-probes = []
-for port in [*range(base, base + 34), *range(7000, 7006)]:
-    probe = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    probe.settimeout(0.5)
-    probe.connect((sys.argv[1], port))
-    probe.send(b'RTPS')
-    probes.append(probe)
-open_ports = []
-for probe in probes:
-    try:
-        probe.recv(1)
-    except ConnectionRefusedError:
-        continue
-    except TimeoutError:
-        open_ports.append(probe.getpeername()[1])
-print(open_ports)
+
+def refused(port):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.settimeout(0.3)
+        probe.connect((sys.argv[1], port))
+        probe.send(b'RTPS')
+        try:
+            probe.recv(1)
+        except ConnectionRefusedError:
+            return True
+        except TimeoutError:
+            return False
+
+# the kernel answers so many probes a second, no more: what is silent is asked again
+silent = [*range(base, base + 34), *range(7000, 7006)]
+for _ in range(4):
+    silent = [port for port in silent if not refused(port)]
+    time.sleep(0.2 if silent else 0)
+print(silent)
 """
 
 

@@ -43,6 +43,7 @@ def main() -> int:
     path, scale, up, result = (
         Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3], Path(sys.argv[4])
     )  # fmt: skip
+    logging.disable(logging.CRITICAL)  # of trimesh: what is wrong is said in one line
     memory, seconds = memory_and_time(path)
     resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
@@ -152,7 +153,6 @@ def _read(path: Path, scale: float, rotation: Array, result: Path) -> dict[str, 
 def _pieces(path: Path) -> tuple[list[tuple[Any, Any]], float]:
     """Return vertices and faces of each mesh, where the file's scene puts it, and its unit [m]."""
     trimesh = _trimesh()
-    logging.disable(logging.CRITICAL)
     try:
         scene = trimesh.load_scene(
             path, process=False, skip_materials=True, allow_remote=False, maintain_order=True

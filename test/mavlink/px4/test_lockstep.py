@@ -110,6 +110,7 @@ def test_two_instances_fly_side_by_side():
 def test_a_reset_by_the_user_sets_the_state_back_and_time_goes_on(flight, px4):
     for _ in range(100):
         last = px4.exchange([0.9] * 4)
+    assert not px4.nothing_comes(10.0)  # a reset before it was sent would take its place
     flight.runner.requests.call(flight._reset, 2.0)
     # the message that was under way still comes; the rules refuse time that goes back
     times = [px4.exchange(IDLE)['time_usec'] for _ in range(10)]
