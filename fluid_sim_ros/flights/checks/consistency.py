@@ -175,7 +175,7 @@ def _other_axes(flight: Flight, moved: Array, begins: Array, ends: Array, error:
         raw = to_enu(signal.values, stated)
         tried = {axes: world.apply(to_flu(raw, axes)) for axes in BODY}
     sums = {axes: _summed(signal, values)(begins, ends) for axes, values in tried.items()}
-    axes = other_axes(stated, moved, sums, error, lambda m, s: _error(m, s, 'velocity'))
+    axes = other_axes(moved, sums, error, lambda m, s: _error(m, s, 'velocity'))
     if not axes:
         return ''
     of = 'body' if axes in BODY else 'world'

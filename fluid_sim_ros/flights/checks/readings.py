@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from fluid_sim_ros.flights.units import BODY
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.physics.environment.atmosphere import GRAVITY
 
@@ -86,20 +85,16 @@ def best_reading(of: str, moved: Array, parts: Array, error: float, error_of: Er
     return ' and '.join(words) if best < _BETTER * min(error, 1.0) else ''
 
 
-def other_axes(
-    stated: str, moved: Array, sums: dict[str, Array], error: float, error_of: Error
-) -> str:
+def other_axes(moved: Array, sums: dict[str, Array], error: float, error_of: Error) -> str:
     """
     Return the axes in which a velocity explains the change of the position clearly better.
 
     Parameters
     ----------
-    stated
-        Axes that it was taken in.
     moved
         What the position changed by, shape (n, 3).
     sums
-        Axes -> the velocity summed up as if it were in them, shape (n, 3).
+        Each of the other axes -> the velocity summed up as if it were in them, shape (n, 3).
     error
         Of the log as it is read now.
     error_of
@@ -112,10 +107,8 @@ def other_axes(
 
     """
     found = {axes: error_of(moved, summed) for axes, summed in sums.items()}
-    kind = BODY if stated in BODY else ('enu', 'ned')
-    others = {axes: left for axes, left in found.items() if axes not in kind}
-    best = min(others, key=others.__getitem__, default='')
-    return best if best and others[best] < _BETTER * min(error, 1.0) else ''
+    best = min(found, key=found.__getitem__)
+    return best if found[best] < _BETTER * min(error, 1.0) else ''
 
 
 def _orders() -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
