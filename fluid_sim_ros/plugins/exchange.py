@@ -7,8 +7,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import ClassVar
 
-from fluid_sim_ros.errors import PluginError
-from fluid_sim_ros.plugins import load_plugins, plugin_library
+from fluid_sim_ros.plugins import functions_of
 
 #: Numbers of the widest reading, constants of an instrument, and channels of a radio control.
 WIDEST, CONSTANTS, CHANNELS = 6, 5, 18
@@ -230,12 +229,6 @@ def exchange_library() -> ExchangeLibrary:
         If the library is missing, or does not fit MuJoCo or this module.
 
     """
-    load_plugins()
-    path = plugin_library()
-    try:
-        return ExchangeLibrary(ctypes.PyDLL(str(path)), ctypes.CDLL(str(path)))
-    except AttributeError as error:
-        raise PluginError(
-            f'{path.name} and exchange.py are of different versions; '
-            f'reinstall fluid_sim_ros ({error})'
-        ) from error
+    return functions_of(
+        lambda path: ExchangeLibrary(ctypes.PyDLL(path), ctypes.CDLL(path)), 'exchange.py'
+    )

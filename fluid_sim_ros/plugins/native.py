@@ -7,8 +7,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from fluid_sim_ros.errors import PluginError
-from fluid_sim_ros.plugins import load_plugins, plugin_library
+from fluid_sim_ros.plugins import functions_of
 
 # What the library says of itself; read from it on first use (``__getattr__`` below), so that each
 # name and number stands once, in plugins/src/shared/terms.h and plugins/src/api/.
@@ -249,15 +248,7 @@ def native() -> Native:
         If the library is missing, or does not fit MuJoCo or this module.
 
     """
-    load_plugins()
-    path = plugin_library()
-    try:
-        return Native(ctypes.CDLL(str(path)))
-    except AttributeError as error:
-        raise PluginError(
-            f'{path.name} and native.py are of different versions; '
-            f'reinstall fluid_sim_ros ({error})'
-        ) from error
+    return functions_of(lambda path: Native(ctypes.CDLL(path)), 'native.py')
 
 
 def _bound(function: Any, arguments: list[Any], result: Any = None) -> Any:

@@ -8,8 +8,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import ClassVar
 
-from fluid_sim_ros.errors import PluginError
-from fluid_sim_ros.plugins import load_plugins, plugin_library
+from fluid_sim_ros.plugins import functions_of
 
 _double, _integer, _pointer = ctypes.c_double, ctypes.c_int64, ctypes.c_void_p
 
@@ -97,14 +96,7 @@ def tick_library() -> TickLibrary:
         If the library is missing, or does not fit MuJoCo or this module.
 
     """
-    load_plugins()
-    path = plugin_library()
-    try:
-        return TickLibrary(ctypes.CDLL(str(path)))
-    except AttributeError as error:
-        raise PluginError(
-            f'{path.name} and tick.py are of different versions; reinstall fluid_sim_ros ({error})'
-        ) from error
+    return functions_of(lambda path: TickLibrary(ctypes.CDLL(path)), 'tick.py')
 
 
 class PublishQueue:
