@@ -13,7 +13,6 @@ part in the same run.
 
 import os
 import signal
-import statistics
 import subprocess
 import sys
 import time
@@ -21,20 +20,18 @@ from pathlib import Path
 
 import rclpy
 from nav_msgs.msg import Odometry
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
 from benchmarks.common import ROOT, arguments, write
+from benchmarks.node.round_trips import Asker, echo, quantiles
 from fluid_sim_ros.control.multirotor import MultirotorController, PoseTarget
 from fluid_sim_ros.control.state import State
 from fluid_sim_ros.control.underwater import DepthTarget, UnderwaterController
 from fluid_sim_ros.simulation.plant import plant_of
 
 ROUNDS, QUICK_ROUNDS, BLOCK, WARM_UP = 5000, 1000, 100, 200
-RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 CASES = {
     'echo': ('', 'x500', 1.5),
     'quad_controller': ('fluid_sim_ros.ros.controllers.quad', 'x500', 1.5),
@@ -43,20 +40,14 @@ CASES = {
 _BEFORE = ' before'
 
 
-def echo() -> None:
+def answer() -> None:
     """Answer each odometry with constant bytes until the process is ended."""
     rclpy.init(args=sys.argv)
-    node = rclpy.create_node('echo')
-    inward = node.create_subscription(Odometry, 'x500/odom', lambda _: None, RELIABLE, raw=True)
-    outward = node.create_publisher(JointState, 'x500/cmd/thrust_stamped', RELIABLE).handle
-    answer = serialize_message(JointState(effort=[5.0] * 4))
-    waiting = _rclpy.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
-    while rclpy.ok():
-        waiting.clear_entities()
-        waiting.add_subscription(inward.handle)
-        waiting.wait(int(5e7))
-        while inward.handle.take_message(Odometry, True):
-            outward.publish_raw(answer)
+    _, vehicle, _ = CASES['echo']
+    echo(
+        rclpy.create_node('echo'), f'{vehicle}/odom', f'{vehicle}/cmd/thrust_stamped',
+        JointState(effort=[5.0] * 4),
+    )  # fmt: skip
 
 
 class Partner:
@@ -84,13 +75,8 @@ class Partner:
             cwd=folder, env={**os.environ, 'PYTHONPATH': str(folder)},
         )  # fmt: skip
         self._clock = (~self._child.pid << 3) | 2  # of its processor time, see clock_getcpuclockid
-        self._context = node.context.handle
         topic = f'/{namespace}/{vehicle}'
-        self._source = node.create_publisher(Odometry, f'{topic}/odom', RELIABLE).handle
-        self._answers = node.create_subscription(
-            JointState, f'{topic}/cmd/thrust_stamped', lambda _: None, RELIABLE, raw=True
-        ).handle
-        self._waiting = _rclpy.WaitSet(1, 0, 0, 0, 0, 0, self._context)
+        self._asker = Asker(node, f'{topic}/odom', f'{topic}/cmd/thrust_stamped', JointState)
         self._state = Odometry()
         self._state.pose.pose.position.z = height
         self._state.pose.pose.orientation.w = 1.0
@@ -105,8 +91,7 @@ class Partner:
             if time.monotonic() > deadline:
                 raise SystemExit(f'no answer from {self._child.args}')
         time.sleep(0.3)  # let answers to repeated first states arrive
-        while self._answers.take_message(JointState, True):
-            pass
+        self._asker.forget()
         self.block(WARM_UP)
         self.times, self.processor_s = [], 0.0
 
@@ -124,16 +109,7 @@ class Partner:
         self._count += 1
         stamp = self._state.header.stamp
         stamp.sec, stamp.nanosec = divmod(10_000_000 * self._count, 1_000_000_000)
-        data = serialize_message(self._state)
-        begin = time.perf_counter()
-        self._source.publish_raw(data)
-        while not self._answers.take_message(JointState, True):
-            self._waiting.clear_entities()
-            self._waiting.add_subscription(self._answers)
-            self._waiting.wait(int(1e8))
-            if time.perf_counter() > begin + patience:
-                return None
-        return time.perf_counter() - begin
+        return self._asker.ask(serialize_message(self._state), patience)
 
     def end(self) -> None:
         """End the child."""
@@ -142,13 +118,8 @@ class Partner:
 
     def row(self) -> dict[str, float]:
         """Return its numbers [us]."""
-        times = sorted(self.times)
-        return {
-            'median_us': round(1e6 * statistics.median(times), 1),
-            'p10_us': round(1e6 * times[len(times) // 10], 1),
-            'p99_us': round(1e6 * times[int(0.99 * len(times))], 1),
-            'processor_us': round(1e6 * self.processor_s / len(times), 1),
-        }
+        processor_us = round(1e6 * self.processor_s / len(self.times), 1)
+        return quantiles(self.times) | {'processor_us': processor_us}
 
 
 def law_steps(rounds: int) -> dict[str, float]:
@@ -220,6 +191,6 @@ def main() -> None:
 
 if __name__ == '__main__':
     if '--echo' in sys.argv:
-        echo()
+        answer()
     else:
         main()

@@ -11,26 +11,23 @@ wants the wrenches, too, which the node evaluates while the echo answers.
 
 import json
 import os
-import statistics
 import subprocess
 import sys
-import time
 from pathlib import Path
-from typing import Any
 
 import rclpy
 from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64MultiArray
 
 from benchmarks.common import arguments, write
+from benchmarks.node.round_trips import RELIABLE, Asker, echo, quantiles
 
 STATES, QUICK_STATES, TURNS = 1000, 300, 5
-RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 PERIOD = 0.01
+VEHICLE = 'bluerov2_heavy'
+ODOMETRY, COMMAND = f'{VEHICLE}/odom', f'{VEHICLE}/cmd/thrust'
 
 # The node; each time from the begin of a tick's messages to the answer, as JSON at its end.
 NODE = """
@@ -54,50 +51,27 @@ sys.exit(code)
 """
 
 
-def echo() -> None:
+def answer() -> None:
     """Answer each odometry with constant thrusts until the process is ended."""
     rclpy.init(args=sys.argv)
     node = rclpy.create_node('echo')
-    vehicle = 'bluerov2_heavy'
-    inward = node.create_subscription(
-        Odometry, f'{vehicle}/odom', lambda _: None, RELIABLE, raw=True
-    )
     node.create_subscription(
-        WrenchStamped, f'{vehicle}/wrench/total', lambda _: None, RELIABLE, raw=True
+        WrenchStamped, f'{VEHICLE}/wrench/total', lambda _: None, RELIABLE, raw=True
     )
-    outward = node.create_publisher(Float64MultiArray, f'{vehicle}/cmd/thrust', RELIABLE).handle
-    answer = serialize_message(Float64MultiArray(data=[0.0] * 8))
-    waiting = _rclpy.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
     print('ready', flush=True)
-    while rclpy.ok():
-        waiting.clear_entities()
-        waiting.add_subscription(inward.handle)
-        waiting.wait(int(5e7))
-        while inward.handle.take_message(Odometry, True):
-            outward.publish_raw(answer)
+    echo(node, ODOMETRY, COMMAND, Float64MultiArray(data=[0.0] * 8))
 
 
 def bare(states: int) -> list[float]:
     """Return round trips of a publisher that does nothing else [s]."""
     node = rclpy.create_node('bare')
-    source = node.create_publisher(Odometry, 'bluerov2_heavy/odom', RELIABLE).handle
-    answers = node.create_subscription(
-        Float64MultiArray, 'bluerov2_heavy/cmd/thrust', lambda _: None, RELIABLE, raw=True
-    ).handle
-    waiting = _rclpy.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
+    asker = Asker(node, ODOMETRY, COMMAND, Float64MultiArray)
     data = serialize_message(Odometry())
-    times = []
+    times: list[float] = []
     while len(times) < states:
-        begin = time.perf_counter()
-        source.publish_raw(data)
-        while not (answered := answers.take_message(Float64MultiArray, True)):
-            waiting.clear_entities()
-            waiting.add_subscription(answers)
-            waiting.wait(int(1e8))
-            if time.perf_counter() > begin + 0.2:  # nobody was there yet
-                break
-        if answered:
-            times.append(time.perf_counter() - begin)
+        took = asker.ask(data, 0.2)
+        if took is not None:  # somebody was there
+            times.append(took)
     node.destroy_node()
     return times
 
@@ -117,16 +91,6 @@ def in_the_node(thread: str, states: int) -> list[float]:
         raise SystemExit(done.stderr)
     times: list[float] = json.loads(done.stdout.splitlines()[-1])
     return times
-
-
-def row(times: list[float]) -> dict[str, Any]:
-    """Return median and 99 % quantile [us]."""
-    ordered = sorted(times)
-    return {
-        'median_us': round(1e6 * statistics.median(ordered), 1),
-        'p10_us': round(1e6 * ordered[len(ordered) // 10], 1),
-        'p99_us': round(1e6 * ordered[int(0.99 * len(ordered))], 1),
-    }
 
 
 def main() -> None:
@@ -150,7 +114,7 @@ def main() -> None:
         child.terminate()
         child.wait(10)
     rclpy.shutdown()
-    rows = {name: row(times) for name, times in found.items()}
+    rows = {name: quantiles(times) for name, times in found.items()}
     for name, numbers in rows.items():
         numbers['added_us'] = round(numbers['median_us'] - rows['floor']['median_us'], 1)
         print(f'{name:8}', numbers)
@@ -159,6 +123,6 @@ def main() -> None:
 
 if __name__ == '__main__':
     if '--echo' in sys.argv:
-        echo()
+        answer()
     else:
         main()
