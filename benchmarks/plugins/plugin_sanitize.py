@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 fluid_sim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 """
-Run the plugin tests on a library built with AddressSanitizer and UBSan.
+Run the tests of the compiled parts on a library built with AddressSanitizer and UBSan.
 
-Builds plugins/src into a copy of the package in a temporary folder and runs test/plugins there;
-any report of a sanitizer aborts the run. Needs g++ with libasan and libubsan.
+Builds plugins/src into a copy of the package in a temporary folder and runs there the tests of
+plugins, lean stepping, instruments, exchanges with autopilots and ticks; any report of a
+sanitizer aborts the run. Needs g++ with libasan and libubsan.
 Run: ``python -m benchmarks.plugins.plugin_sanitize [--quick] [--json PATH]``.
 """
 
@@ -28,8 +29,13 @@ FLAGS = (
 )  # fmt: skip
 # With this macro MuJoCo's headers call stack functions that only a sanitized MuJoCo has.
 PLAIN_MUJOCO = '-U__SANITIZE_ADDRESS__'
+TESTS = (
+    'plugins', 'simulation/lean', 'sensors', 'mavlink/test_compiled.py',
+    'mavlink/test_usual_exchange.py', 'messages/test_compiled_tick.py',
+)  # fmt: skip
+QUICK_TESTS = ('plugins/test_same_bits.py', 'plugins/test_load_checks.py')
 # The allocation counter preloads its own malloc, which a sanitizer does not allow.
-LEFT_OUT = ('test_no_allocation.py',)
+LEFT_OUT = ('plugins/test_no_allocation.py',)
 
 
 def build(package: Path) -> None:
@@ -79,11 +85,10 @@ def reports(output: str) -> list[str]:
 def run(folder: Path, quick: bool) -> dict[str, Any]:
     """Copy, build and test; return what happened."""
     environment = sanitized_copy(folder)
-    chosen = ['test_same_bits.py', 'test_load_checks.py'] if quick else ['.']
     command = [
         sys.executable, '-m', 'pytest', '-q', '-x', '-p', 'no:cacheprovider', '--rootdir',
-        str(folder), *(f'--ignore={folder / "test/plugins" / name}' for name in LEFT_OUT),
-        *(str(folder / 'test/plugins' / name) for name in chosen),
+        str(folder), *(f'--ignore={folder / "test" / name}' for name in LEFT_OUT),
+        *(str(folder / 'test' / name) for name in (QUICK_TESTS if quick else TESTS)),
     ]  # fmt: skip
     done = subprocess.run(
         command, env=environment, cwd=folder, capture_output=True, text=True, check=False
