@@ -66,6 +66,7 @@ def sanitized_copy(folder: Path) -> dict[str, str]:
         shutil.copytree(
             ROOT / name, folder / name, ignore=shutil.ignore_patterns('__pycache__', '*.so')
         )
+    shutil.copy(ROOT / 'pyproject.toml', folder)  # the settings of pytest
     build(folder / 'fluid_sim_ros')
     return dict(
         os.environ,
@@ -86,8 +87,8 @@ def run(folder: Path, quick: bool) -> dict[str, Any]:
     """Copy, build and test; return what happened."""
     environment = sanitized_copy(folder)
     command = [
-        sys.executable, '-m', 'pytest', '-q', '-x', '-p', 'no:cacheprovider', '--rootdir',
-        str(folder), *(f'--ignore={folder / "test" / name}' for name in LEFT_OUT),
+        sys.executable, '-m', 'pytest', '-q', '-x', '-p', 'no:cacheprovider', '-o', 'timeout=0',
+        '--rootdir', str(folder), *(f'--ignore={folder / "test" / name}' for name in LEFT_OUT),
         *(str(folder / 'test' / name) for name in (QUICK_TESTS if quick else TESTS)),
     ]  # fmt: skip
     done = subprocess.run(
