@@ -11,8 +11,9 @@ from typing import Any
 from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli import replay as cli_replay
 from fluid_sim_ros.cli.parser import above
-from fluid_sim_ros.cli.shared import Show, add_command, made_folder, plain_text, progress_bar
+from fluid_sim_ros.cli.shared import Show, add_command, made_folder, plain_text
 from fluid_sim_ros.output.new_file import file_names
+from fluid_sim_ros.output.progress import LOG_PATIENCE, progress_bar, progress_of_parts, silent
 
 DAMAGED = 1
 
@@ -83,7 +84,8 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
         return flight_info(arguments, show)
     from fluid_sim_ros.recording.inspect import info
 
-    result = info(arguments.log)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        result = info(arguments.log, report)
     if is_sound_bag(Path(arguments.log), result):
         return flight_info(arguments, show)
     table = Table(
@@ -112,7 +114,8 @@ def _info(arguments: argparse.Namespace, show: Show) -> int:
 def _repair(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.recording.inspect import repair
 
-    result = repair(arguments.log, arguments.out)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        result = repair(arguments.log, arguments.out, report=report)
     lines = [f'{result["path"]}: {result["messages"]} messages, {result["bytes"]} bytes']
     lines += [f'lost: {line}' for line in result['lost']]
     show(arguments.json, plain_text(lines), result)
@@ -126,16 +129,20 @@ def _plot(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.recording.pictures.tracks import read_tracks
     from fluid_sim_ros.recording.reader import open_log
 
-    log = open_log(arguments.log)
-    tracks = read_tracks(log)
-    names = file_names(track.name for track in tracks.vehicles)
-    with made_folder(arguments.out or log.path.parent) as folder:
-        stem = folder / log.path.stem
-        files = [
-            pictures.overview(track, tracks, stem.with_name(f'{stem.name}_{name}.png'))
-            for track, name in zip(tracks.vehicles, names, strict=True)
-        ]
-        files.append(write_report(tracks, about(log), stem.with_name(f'{stem.name}.html')))
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(arguments.log, report)
+        tracks = read_tracks(log)
+        names = file_names(track.name for track in tracks.vehicles)
+        with made_folder(arguments.out or log.path.parent) as folder:
+            stem = folder / log.path.stem
+            files: list[Path] = []
+            for track, name in zip(tracks.vehicles, names, strict=True):
+                report('pictures', len(files), len(names) + 1)
+                place = stem.with_name(f'{stem.name}_{name}.png')
+                files.append(pictures.overview(track, tracks, place))
+            report('pictures', len(files), len(names) + 1)
+            files.append(write_report(tracks, about(log), stem.with_name(f'{stem.name}.html')))
+            report('pictures', len(files), len(files))
     result = {'log': str(log.path), 'files': [str(file) for file in files], 'faults': log.faults}
     lines = [*(str(file) for file in files), *(f'damaged: {fault}' for fault in log.faults)]
     show(arguments.json, plain_text(lines), result)
@@ -146,10 +153,11 @@ def _export(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.recording.export import export, left_out
     from fluid_sim_ros.recording.reader import open_log
 
-    log = open_log(arguments.log)
     kind = 'csv' if arguments.csv else 'parquet'
-    with made_folder(arguments.csv or arguments.parquet, f'--{kind}') as folder:
-        files = export(log, folder, kind)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(arguments.log, report)
+        with made_folder(arguments.csv or arguments.parquet, f'--{kind}') as folder:
+            files = export(log, folder, kind)
     result = {'log': str(log.path), 'files': files, 'faults': log.faults}
     lines = [*files, *(f'no table: {name} (pictures, points)' for name in left_out(log))]
     lines += [*(f'damaged: {fault}' for fault in log.faults)]
@@ -164,7 +172,9 @@ def _render(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.recording.pictures.render import FilmOptions, render
     from fluid_sim_ros.recording.reader import open_log
 
-    log = open_log(arguments.log)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(arguments.log, report)
+    log.report = silent  # the film has a bar of its own
     out = arguments.out or log.path.with_suffix('.mp4')
     width, height = arguments.size
     options = FilmOptions(

@@ -8,16 +8,13 @@ import signal
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.shared import Show, fraction, plain_text
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.interruption import exit_code
-
-if TYPE_CHECKING:
-    from fluid_sim_ros.recording.log import Log
-
+from fluid_sim_ros.output.progress import LOG_PATIENCE, progress_of_parts, silent
 
 #: Exit code where the log is damaged or a state differs.
 DIFFERENT = 1
@@ -85,23 +82,24 @@ def replay(arguments: argparse.Namespace, show: Show) -> int:
         Exit code.
 
     """
-    from fluid_sim_ros.recording.reader import open_log
-
-    log = open_log(arguments.log)
     if arguments.changes:
-        return _what_if(log, arguments, show)
+        return _what_if(arguments, show)
     if arguments.resimulate:
-        return _resimulate(log, arguments, show)
-    return _publish(log, arguments, show)
+        return _resimulate(arguments, show)
+    return _publish(arguments, show)
 
 
-def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
+def _publish(arguments: argparse.Namespace, show: Show) -> int:
     from fluid_sim_ros.loop.recorder_port import selected
+    from fluid_sim_ros.recording.reader import open_log
     from fluid_sim_ros.recording.writing.rosbag2 import recorded_topic
     from fluid_sim_ros.ros import replay as ros
     from fluid_sim_ros.ros.process.this_host import check_domain
 
     check_domain()
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(arguments.log, report)
+    log.report = silent  # it is published at the pace of the flight
     options = ros.ReplayOptions(arguments.rate, arguments.loop, arguments.paused)
     if not 0 <= arguments.begin <= arguments.end:
         raise ConfigError(
@@ -135,12 +133,15 @@ def _publish(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
     return DIFFERENT if log.faults else 0
 
 
-def _resimulate(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
+def _resimulate(arguments: argparse.Namespace, show: Show) -> int:
+    from fluid_sim_ros.recording.reader import open_log
     from fluid_sim_ros.recording.replay.resimulate import resimulate
 
     if not arguments.tolerance >= 0:
         raise ConfigError(f'--tolerance {arguments.tolerance:g}: must be 0 or more')
-    outcome = resimulate(log, arguments.tolerance)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(arguments.log, report)
+        outcome = resimulate(log, arguments.tolerance)
     different = outcome.difference
     lines = [
         f'{outcome.commands} commands fed in, {outcome.compared} states compared',
@@ -177,11 +178,14 @@ def _finite(value: float) -> float | None:
     return value if value < float('inf') else None
 
 
-def _what_if(log: 'Log', arguments: argparse.Namespace, show: Show) -> int:
+def _what_if(arguments: argparse.Namespace, show: Show) -> int:
+    from fluid_sim_ros.recording.reader import open_log
     from fluid_sim_ros.recording.replay.what_if import compare_flights
 
-    out = arguments.out or log.path.with_name(f'{log.path.stem}_what_if.png')
-    result = compare_flights(log, arguments.changes, out)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(arguments.log, report)
+        out = arguments.out or log.path.with_name(f'{log.path.stem}_what_if.png')
+        result = compare_flights(log, arguments.changes, out)
     lines = [
         f'{name}: up to {apart["largest_apart_m"]:.4g} m apart, at '
         f'{apart["largest_apart_at_s"]:.2f} s; {apart["apart_at_end_m"]:.4g} m at the end'

@@ -17,7 +17,7 @@ from fluid_sim_ros.cli.flight import AutopilotRun, Flight, counts_lines
 from fluid_sim_ros.cli.foxglove import served
 from fluid_sim_ros.cli.home import scene_at, turn_to
 from fluid_sim_ros.cli.recorded import recorded, watch
-from fluid_sim_ros.cli.shared import plain_lines, progress_bar, status_line
+from fluid_sim_ros.cli.shared import plain_lines
 from fluid_sim_ros.cli.tables import table_of
 from fluid_sim_ros.cli.watcher import SAMPLE_PERIOD, Watcher
 from fluid_sim_ros.errors import ConfigError, listed
@@ -26,6 +26,7 @@ from fluid_sim_ros.loop.hold import Hold
 from fluid_sim_ros.loop.pacing import KEPT_PACE, Pacing, RealTime
 from fluid_sim_ros.loop.runner import NoSource, Runner, Sink
 from fluid_sim_ros.loop.watchdogs import Watchdogs
+from fluid_sim_ros.output.progress import progress_bar, status_line
 from fluid_sim_ros.scene import Scene
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.simulation import Simulation

@@ -4,8 +4,6 @@
 
 import argparse
 import math
-import sys
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -17,16 +15,10 @@ from fluid_sim_ros.interruption import owns
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.progress import Progress, ProgressColumn
     from rich.text import Text
-
-    from fluid_sim_ros.lab.progress import Report
 
 #: Shows a table, or writes a result as JSON: (path or None, table, result).
 Show = Callable[[str | None, Any, object], None]
-
-#: Outside of a terminal a long part tells how far it is so often [s].
-_TELL_EVERY = 10.0
 
 JSON_HELP = 'also write the result as JSON; - is standard output'
 
@@ -116,21 +108,6 @@ def console() -> 'Console':
     return PlainConsole()
 
 
-def status_line() -> 'Progress':
-    """Return a line on standard error that is written anew, in place of a bar."""
-    from rich.progress import Progress, TextColumn
-    from rich.table import Column
-
-    from fluid_sim_ros.output.plain_console import PlainConsole
-
-    owns()  # a line without a cursor
-    console = PlainConsole(stderr=True)
-    text = TextColumn(
-        '{task.description}', markup=False, table_column=Column(no_wrap=True, overflow='ellipsis')
-    )
-    return Progress(text, console=console, transient=True, disable=not console.is_terminal)
-
-
 def plain_text(lines: Iterable[str]) -> str:
     """
     Return lines for the console: no markup, no control characters, each cut.
@@ -144,61 +121,6 @@ def plain_text(lines: Iterable[str]) -> str:
     from rich.markup import escape
 
     return escape('\n'.join(printable(line, MOST_LINE) for line in lines))
-
-
-def progress_bar(*columns: 'str | ProgressColumn') -> 'Progress':
-    """
-    Return a bar on standard error, so that standard output holds the result only.
-
-    Parameters
-    ----------
-    *columns
-        Of rich, between the bar and the remaining time.
-
-    """
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    from fluid_sim_ros.output.plain_console import PlainConsole
-
-    owns()
-    console = PlainConsole(stderr=True)
-    name = TextColumn('{task.description}', markup=False)
-    return Progress(
-        name, BarColumn(), *columns, TimeRemainingColumn(),
-        console=console, transient=True, disable=not console.is_terminal,
-    )  # fmt: skip
-
-
-@contextmanager
-def progress_of_parts() -> Iterator['Report']:
-    """
-    Give a function that shows how far a measurement is, on standard error.
-
-    A bar that lives in a terminal; elsewhere a line for each part as it begins, and for a long
-    one now and then.
-
-    Returns
-    -------
-    context manager
-        Gives a function that takes what is done, how many, and of how many.
-
-    """
-    from rich.progress import TimeElapsedColumn
-
-    with progress_bar('{task.completed}/{task.total}', TimeElapsedColumn()) as bar:
-        tasks: dict[str, Any] = {}
-        told: dict[str, float] = {}
-
-        def report(what: str, done: int, total: int) -> None:
-            if what not in tasks:
-                tasks[what] = bar.add_task(what, total=total)
-            bar.update(tasks[what], completed=done, visible=done < total)
-            now = time.monotonic()
-            if bar.disable and done < total and now - told.get(what, -math.inf) > _TELL_EVERY:
-                told[what] = now
-                sys.stderr.write(f'{what}: {done} of {total}\n')
-
-        yield report
 
 
 def unbroken(lines: 'Iterable[str | Path]') -> 'Text':

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.cli import completion
-from fluid_sim_ros.cli.shared import Show, add_command, progress_bar, unbroken
+from fluid_sim_ros.cli.shared import Show, add_command, unbroken
+from fluid_sim_ros.output.progress import progress_bar
 
 FAILED = 1
 

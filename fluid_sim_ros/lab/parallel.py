@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TypeVar
 
-from fluid_sim_ros.lab.progress import Report
+from fluid_sim_ros.output.progress import Report
 
 Item = TypeVar('Item')
 Result = TypeVar('Result')

@@ -15,6 +15,7 @@ from fluid_sim_ros.flights.checks.consistency import check_flight
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
 from fluid_sim_ros.flights.sparse import sparse_lines
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
@@ -29,6 +30,8 @@ from fluid_sim_ros.reality.windows import Windows, cut, errors, held_velocity
 from fluid_sim_ros.schema.settings import RunSettings
 
 HORIZONS = (0.1, 0.25, 0.5, 1.0)
+#: Passes over the windows: the model, the rigid body, the accelerations along the flight.
+_PASSES = 3
 #: Names of the baselines, and what they are.
 BASELINES = {
     'hold_velocity': 'velocity and rates stay as they are',
@@ -72,7 +75,7 @@ class Comparison:
 
 def compare(
     flight: Flight, model: str, outputs: Sequence[Output] = (), part: Part = Part(),
-    edit: Edit | None = None,
+    edit: Edit | None = None, report: Report = silent,
 ) -> Comparison:  # fmt: skip
     """
     Fly a flight again with a model, in short windows from measured states.
@@ -89,6 +92,8 @@ def compare(
         Which part of it, with which horizons and settings.
     edit
         Changes the model, such as its parameters.
+    report
+        Is told how far it is.
 
     Returns
     -------
@@ -112,7 +117,9 @@ def compare(
     windows, at_rest = airborne(windows, flyer)
     windows = with_parts(windows, driven)
     measured = windows.measured(np.array(horizons))
+    report(f'{len(windows.begins)} windows', 0, _PASSES)
     found = {'model': errors(fly_windows(flyer, windows, horizons), measured)}
+    report(f'{len(windows.begins)} windows', 1, _PASSES)
     start = windows.measured(0.0)
     found['hold_velocity'] = errors(held_velocity(start, horizons), measured)
     no_fluid = part.settings.model_copy(update={'fluid': 'none'})
@@ -121,7 +128,9 @@ def compare(
     )  # fmt: skip
     bare = Flyer(rigid, part.threads)
     found['rigid_body'] = errors(fly_windows(bare, windows, horizons), measured)
+    report(f'{len(windows.begins)} windows', 2, _PASSES)
     along = residuals(flyer, windows)
+    report(f'{len(windows.begins)} windows', _PASSES, _PASSES)
     off = summary(along, floats(driven))
     numbers: dict[str, Any] = {
         'log': str(flight.raw.path), 'kind': flight.raw.kind, 'model': model,

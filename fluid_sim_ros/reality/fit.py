@@ -24,6 +24,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.flight import STATE, Flight
 from fluid_sim_ros.flights.sparse import sparse_lines
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
@@ -34,7 +35,7 @@ from fluid_sim_ros.reality.fitting.disturbance import told as told_of_knots
 from fluid_sim_ros.reality.fitting.doubt import doubts
 from fluid_sim_ros.reality.fitting.normal import sandwich
 from fluid_sim_ros.reality.fitting.shooting import Shots
-from fluid_sim_ros.reality.fitting.solver import Report, Solver, Task
+from fluid_sim_ros.reality.fitting.solver import Solver, Task
 from fluid_sim_ros.reality.flying import Flyer
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import find_parameters
@@ -99,7 +100,7 @@ class Fitted:
 
 
 def fit(
-    flights: Sequence[Flight], task: Task, report: Report = lambda *_: None,
+    flights: Sequence[Flight], task: Task, report: Report = silent,
     keep: Callable[[dict[str, float]], None] = lambda _: None,
 ) -> Fitted:  # fmt: skip
     """

@@ -23,13 +23,15 @@ class Channels:
     ----------
     left_out
         A line for each channel whose topic or type is no name: nothing of it is read, so that no
-        such text reaches a path, an import or a terminal.
+        such text reaches a path, an import or a terminal; and for one whose topic an earlier
+        channel describes otherwise.
 
     """
 
     def __init__(self, topics: dict[int, LogTopic]) -> None:
         self._topics = topics
         self._schemas: dict[int, tuple[str, str]] = {}  # type and definition
+        self._first: dict[str, LogTopic] = {}  # of channels that share a topic
         self._left_out: dict[int, str] = {}
 
     @property
@@ -91,8 +93,14 @@ class Channels:
             fault = f"topic '{printable(name)}' is no name of ROS"
         elif not is_type_name(kind):
             fault = f"topic '{name}': type '{printable(kind)}' is no name of ROS"
+        elif _described(self._first.setdefault(name, topic)) != (kind, text):
+            fault = f"topic '{name}' has another type or definition in an earlier channel"
         elif self._topics.setdefault(number, topic) == topic:
             return
         else:
             raise BadRecordError(f'channel {number} is another than before')
         self._left_out[number] = f'channel {number} is left out: {fault}'
+
+
+def _described(topic: LogTopic) -> tuple[str, str]:
+    return topic.type, topic.definition

@@ -13,6 +13,7 @@ from mcap.writer import CompressionType, Writer
 
 from fluid_sim_ros.errors import MachineError, of_machine, printable
 from fluid_sim_ros.interruption import owns
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.recording.damage import LogError
 from fluid_sim_ros.recording.log import Log
 from fluid_sim_ros.recording.reader import open_log
@@ -66,7 +67,7 @@ def count(log: Log) -> Contents:
     return contents
 
 
-def info(path: str | Path) -> dict[str, Any]:
+def info(path: str | Path, report: Report = silent) -> dict[str, Any]:
     """
     Return what ``fluid_sim info`` shows.
 
@@ -74,6 +75,8 @@ def info(path: str | Path) -> dict[str, Any]:
     ----------
     path
         Log file, or the folder of one.
+    report
+        Is told how far it is.
 
     Returns
     -------
@@ -87,7 +90,7 @@ def info(path: str | Path) -> dict[str, Any]:
         If it is no log at all.
 
     """
-    log = open_log(path)
+    log = open_log(path, report)
     contents = count(log)
     total = contents.total
     result: dict[str, Any] = {
@@ -177,7 +180,9 @@ def _made(target: Path) -> Iterator[BinaryIO]:
         raise
 
 
-def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[str, Any]:
+def repair(
+    path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE, report: Report = silent
+) -> dict[str, Any]:
     """
     Write all that is sound in a log to a new file.
 
@@ -191,6 +196,8 @@ def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[st
         ``.mcap`` file, or a folder that becomes a bag for rosbag2.
     chunk_size
         Size at which a chunk is closed [bytes].
+    report
+        Is told how far it is.
 
     Returns
     -------
@@ -205,7 +212,7 @@ def repair(path: str | Path, out: Path, chunk_size: int = CHUNK_SIZE) -> dict[st
         If it cannot be written; nothing is left of it then.
 
     """
-    log = open_log(path)
+    log = open_log(path, report)
     target = out if out.suffix == '.mcap' else out / f'{out.name}_0.mcap'
     with _made(target) as stream:
         writer = Writer(

@@ -12,10 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluid_sim_ros.errors import did_you_mean, listed
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.recording.damage import BadRecordError, LogError, reading
 from fluid_sim_ros.recording.decode import columns
 from fluid_sim_ros.recording.description import RunDescription
 from fluid_sim_ros.recording.records import MESSAGE, MESSAGE_HEAD, Chunk, decompress, records
+
+#: What each later pass over a file is called.
+_READING = 'reading [chunks]'
 
 
 class LogMessage(NamedTuple):
@@ -57,6 +61,8 @@ class Log:
         By name.
     chunks
         Where the messages stand, in the order of the file; the checksum of each is right.
+    report
+        Is told how far each pass over the file is.
 
     """
 
@@ -68,6 +74,7 @@ class Log:
     topics: dict[int, LogTopic] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     chunks: list[Chunk] = field(default_factory=list)
+    report: Report = silent
 
     def messages(
         self, topics: Collection[str] | None = None, lost: list[str] | None = None
@@ -99,7 +106,8 @@ class Log:
             if topics is None or topic.name in topics
         }
         with self.path.open('rb') as stream:
-            for chunk in self.chunks:
+            for number, chunk in enumerate(self.chunks):
+                self.report(_READING, number, len(self.chunks))
                 try:
                     with reading(self.path, f'chunk at byte {chunk.at}'):
                         stream.seek(chunk.offset)
@@ -109,6 +117,7 @@ class Log:
                     if lost is None:
                         raise
                     lost.append(f'chunk at byte {chunk.at}: {error.__cause__}')
+        self.report(_READING, len(self.chunks), len(self.chunks))
 
     def topic(self, name: str) -> LogTopic:
         """
@@ -137,19 +146,19 @@ class Log:
         hint = did_you_mean(name, names)
         raise LogError(f"{self.path}: no topic '{name}'{hint} it has: {listed(names)}")
 
-    def series(self, topic: LogTopic) -> 'Series':
+    def series(self, topics: Collection[str]) -> dict[str, 'Series']:
         """
-        Return the messages of one topic as arrays.
+        Return the messages of some topics as arrays, in one pass over the file.
 
         Parameters
         ----------
-        topic
-            Of this log.
+        topics
+            Their full names.
 
         Returns
         -------
-        Series
-            In the order of the file.
+        dict
+            By topic, in the order of the file.
 
         Raises
         ------
@@ -157,10 +166,10 @@ class Log:
             As ``messages``.
 
         """
-        series = Series()
-        for message in self.messages([topic.name]):
-            series.add(message)
-        return series
+        found = {name: Series() for name in topics}
+        for message in self.messages(topics):
+            found[message.topic].add(message)
+        return found
 
     def table(self, topic: LogTopic, messages: Sequence[bytes]) -> dict[str, NDArray[Any]]:
         """

@@ -15,6 +15,7 @@ import zlib
 from pathlib import Path
 
 from fluid_sim_ros.errors import printable
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.recording.channels import Channels
 from fluid_sim_ros.recording.damage import BadRecordError, LogError, reading
 from fluid_sim_ros.recording.log import Log
@@ -44,9 +45,11 @@ from fluid_sim_ros.schema.limits import beyond, expanded_size, limit
 #: Faults that are listed one by one.
 _MOST_FAULTS = 100
 _PIECE = 1 << 20
+#: What the first pass over a file is called.
+_CHECKING = 'checking [kB]'
 
 
-def open_log(path: str | Path) -> Log:
+def open_log(path: str | Path, report: Report = silent) -> Log:
     """
     Open a log file, or the one log in a folder, and check every checksum in it.
 
@@ -54,6 +57,8 @@ def open_log(path: str | Path) -> Log:
     ----------
     path
         Of the file or the folder.
+    report
+        Is told how far this and each later pass over the file is.
 
     Returns
     -------
@@ -80,19 +85,19 @@ def open_log(path: str | Path) -> Log:
         raise LogError(f'{printable(str(path), 1000)}: {reason}') from None
     try:
         with reading(path):
-            return _scanned(path, handle)
+            return _scanned(path, handle, report)
     finally:
         os.close(handle)
 
 
-def _scanned(path: Path, handle: int) -> Log:
+def _scanned(path: Path, handle: int, report: Report) -> Log:
     status = os.fstat(handle)
     start = os.pread(handle, len(MAGIC), 0)
     if not start:
         raise LogError('the file is empty')
     if start != MAGIC:
         raise LogError('not an MCAP file')
-    log = Log(path, status.st_size)
+    log = Log(path, status.st_size, report=report)
     _Scan(log, handle).run()
     return log
 
@@ -112,6 +117,7 @@ class _Scan:
         at, end = len(MAGIC), self._log.size
         ended = False
         while at < end and not ended:
+            self._log.report(_CHECKING, at // 1000, end // 1000)
             if end - at < RECORD.size:
                 break
             head = self._bytes(at, RECORD.size)
@@ -122,6 +128,7 @@ class _Scan:
             ended = kind == DATA_END
             self._take(kind, at, after, head)
             at = after
+        self._log.report(_CHECKING, end // 1000, end // 1000)
         if ended:
             if not self._read_index():
                 self._fault('the index at the end of the file is missing or damaged')

@@ -6,7 +6,8 @@ import argparse
 from typing import Any
 
 from fluid_sim_ros.cli.lab.tables import advice_table
-from fluid_sim_ros.cli.shared import Show, add_command, add_scene, fraction, progress_of_parts
+from fluid_sim_ros.cli.shared import Show, add_command, add_scene, fraction
+from fluid_sim_ros.output.progress import progress_of_parts
 
 #: Exit code where nothing meets the tolerance.
 NOTHING_FITS = 1

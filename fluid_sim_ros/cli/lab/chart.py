@@ -13,12 +13,13 @@ from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.lab.tables import fronts_table
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.reality.chart_against import add_against, chart_flight
-from fluid_sim_ros.cli.shared import Show, add_command, made_folder, progress_of_parts
+from fluid_sim_ros.cli.shared import Show, add_command, made_folder
 from fluid_sim_ros.errors import ConfigError, FluidSimError, printable
+from fluid_sim_ros.output.progress import progress_of_parts
 
 if TYPE_CHECKING:
     from fluid_sim_ros.lab.problems.problem import Problem
-    from fluid_sim_ros.lab.progress import Report
+    from fluid_sim_ros.output.progress import Report
 
 #: A quick chart: so many timesteps, the largest of them [s], and bursts of steps.
 _QUICK_COUNT, _QUICK_LARGEST, _QUICK_ROUNDS = 4, 0.02, 10

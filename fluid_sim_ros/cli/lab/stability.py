@@ -8,14 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from fluid_sim_ros.cli import completion
-from fluid_sim_ros.cli.shared import (
-    Show,
-    add_command,
-    made_folder,
-    progress_of_parts,
-    unbroken,
-)
+from fluid_sim_ros.cli.shared import Show, add_command, made_folder, unbroken
 from fluid_sim_ros.errors import ConfigError, listed
+from fluid_sim_ros.output.progress import progress_of_parts
 
 
 def add_parser(commands: Any, show: Show) -> None:

@@ -10,10 +10,12 @@ from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.reality.info import mapping_of
 from fluid_sim_ros.cli.shared import Show, add_command, made_folder, plain_text, unbroken
+from fluid_sim_ros.output.progress import LOG_PATIENCE, progress_of_parts
 
 if TYPE_CHECKING:
     from fluid_sim_ros.flights.flight import Flight
     from fluid_sim_ros.flights.mapping import FlightMap, Output
+    from fluid_sim_ros.output.progress import Report
     from fluid_sim_ros.reality.compare import Part
 
 
@@ -173,8 +175,9 @@ def _compare(arguments: argparse.Namespace, show: Show) -> int:
     mapping = mapping_of(arguments.mapping)
     flight = read_log(arguments.log, mapping, arguments.smooth)
     outputs = outputs_of(flight, mapping, arguments.model)
-    found = compare(flight, arguments.model, outputs, part_of(arguments))
-    replayed = _replayed(arguments.log)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        found = compare(flight, arguments.model, outputs, part_of(arguments), report=report)
+        replayed = _replayed(arguments.log, report)
     if replayed is not None:
         found.numbers['replay'] = replayed
     files: list[Path] = []
@@ -190,7 +193,7 @@ def _compare(arguments: argparse.Namespace, show: Show) -> int:
     return 0
 
 
-def _replayed(log: str) -> dict[str, Any] | None:
+def _replayed(log: str, report: 'Report') -> dict[str, Any] | None:
     """Return how far an exact repetition of a log of ours is from it; None for one of others."""
     from fluid_sim_ros.errors import FluidSimError
     from fluid_sim_ros.recording.reader import open_log
@@ -199,7 +202,7 @@ def _replayed(log: str) -> dict[str, Any] | None:
     if not log.lower().endswith('.mcap'):
         return None
     try:
-        result = resimulate(open_log(log))
+        result = resimulate(open_log(log, report))
     except FluidSimError:  # a log without our run in it
         return None
     return {

@@ -12,9 +12,10 @@ from fluid_sim_ros.cli import completion
 from fluid_sim_ros.cli.parser import above
 from fluid_sim_ros.cli.reality.compare import add_model, outputs_of, read_log
 from fluid_sim_ros.cli.reality.info import mapping_of
-from fluid_sim_ros.cli.shared import Show, add_command, plain_text, progress_of_parts, unbroken
+from fluid_sim_ros.cli.shared import Show, add_command, plain_text, unbroken
 from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.output.new_file import new_file
+from fluid_sim_ros.output.progress import progress_of_parts
 from fluid_sim_ros.schema.data_file import open_data
 
 if TYPE_CHECKING:

@@ -15,6 +15,7 @@ from fluid_sim_ros.cli.parser import at_least
 from fluid_sim_ros.cli.shared import Show, add_command, add_scene, plain_lines, plain_text
 from fluid_sim_ros.errors import ConfigError, needed_for
 from fluid_sim_ros.interruption import stopped_by_signals
+from fluid_sim_ros.output.progress import LOG_PATIENCE, progress_of_parts, silent
 
 if TYPE_CHECKING:
     from fluid_sim_ros.view.source import Source
@@ -215,7 +216,10 @@ def _log(
     from fluid_sim_ros.recording.reader import open_log
 
     _only_for_scenes(arguments, given, (), 'a log was flown; --with shows it with a change')
-    log = open_log(path)
-    for fault in log.faults:
-        say(f'damaged: {fault}')
-    return LogSource(log, arguments.changes, arguments.pace, arguments.paused, say)
+    with progress_of_parts(LOG_PATIENCE) as report:
+        log = open_log(path, report)
+        for fault in log.faults:
+            say(f'damaged: {fault}')
+        source = LogSource(log, arguments.changes, arguments.pace, arguments.paused, say)
+    log.report = silent  # what is read later, nobody waits for
+    return source

@@ -18,8 +18,8 @@ from fluid_sim_ros.lab.manoeuvre import first_timestep, judged
 from fluid_sim_ros.lab.metrics import check_metric
 from fluid_sim_ros.lab.problems.from_scene import of_scene
 from fluid_sim_ros.lab.problems.problem import Problem, Setting, fits
-from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.scene import Scene
 
 #: How far below the model's own timestep the search goes.

@@ -11,7 +11,7 @@ from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
 from fluid_sim_ros.lab.metrics import Metric, metric
 from fluid_sim_ros.lab.motion_errors import Sensitivity, runs_away, sensitivity
 from fluid_sim_ros.lab.problems.problem import Problem, Setting, Trajectory
-from fluid_sim_ros.lab.progress import Report
+from fluid_sim_ros.output.progress import Report
 
 #: What can become of a run, in the order of gravity. ``wrong``: its error is half as large as the
 #: motion, or larger; ``blow-up``: a body moves or turns far faster than it should; ``lost``: the

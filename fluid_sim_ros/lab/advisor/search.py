@@ -11,7 +11,7 @@ from fluid_sim_ros.lab.advisor.budgeted_runs import BudgetedRuns
 from fluid_sim_ros.lab.advisor.envelope import Envelope
 from fluid_sim_ros.lab.advisor.reference import Reference
 from fluid_sim_ros.lab.problems.problem import Setting
-from fluid_sim_ros.lab.progress import Report
+from fluid_sim_ros.output.progress import Report
 
 #: Timesteps tried: 1, 2, 5 times powers of ten [s].
 LADDER = tuple(float(f'{digit}e{power}') for power in range(-2, -7, -1) for digit in (5, 2, 1))

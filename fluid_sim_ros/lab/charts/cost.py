@@ -20,7 +20,7 @@ import numpy as np
 
 from fluid_sim_ros.errors import ConfigError, DivergedError
 from fluid_sim_ros.lab.problems.problem import Problem
-from fluid_sim_ros.lab.progress import Report, silent
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.simulation import Simulation
 from fluid_sim_ros.step_clock import duration_steps
 

@@ -32,8 +32,8 @@ from fluid_sim_ros.lab.problems.problem import (
     Trajectory,
     known_integrators,
 )
-from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.schema.settings import RunSettings
 from fluid_sim_ros.step_clock import whole_steps

@@ -10,9 +10,9 @@ import numpy as np
 
 from fluid_sim_ros.lab.problems.bodies import Body, Family
 from fluid_sim_ros.lab.problems.boundaries import critical
-from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.stability.outcomes import one_step, outcome
 from fluid_sim_ros.lab.stability.stability_map import body_at, values
+from fluid_sim_ros.output.progress import Report, silent
 
 #: Bisection ends when the timestep is known to this factor.
 _PRECISION = 1.05

@@ -14,10 +14,10 @@ from fluid_sim_ros.lab.advisor.reference import Reference, find_reference, outco
 from fluid_sim_ros.lab.manoeuvre import first_timestep, judged
 from fluid_sim_ros.lab.parallel import run_parallel
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS, Problem, known_integrators
-from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
 from fluid_sim_ros.lab.retimed import largest_timestep, run_retimed
 from fluid_sim_ros.lab.stability.limits import bisect
+from fluid_sim_ros.output.progress import Report, silent
 
 #: How well the reference should be known, as a tolerance of the advisor's.
 _TOLERANCE = 0.05

@@ -13,9 +13,9 @@ import numpy as np
 from fluid_sim_ros.errors import ConfigError, did_you_mean, listed
 from fluid_sim_ros.lab.problems.bodies import AXES, Body, family
 from fluid_sim_ros.lab.problems.problem import INTEGRATORS, known_integrators
-from fluid_sim_ros.lab.progress import Report, silent
 from fluid_sim_ros.lab.results import conditions
 from fluid_sim_ros.lab.stability.outcomes import OUTCOMES, outcome
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.schema.data_file import open_data
 from fluid_sim_ros.schema.limits import check_limit, limit
 

@@ -3,7 +3,7 @@
 """Which effect of a model is worth its cost against a flight: rungs, integrators, timesteps."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,7 @@ from fluid_sim_ros.errors import ConfigError, ModelError, listed
 from fluid_sim_ros.flights.about import refuse_unclear, require_comparable
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
+from fluid_sim_ros.output.progress import Report, silent
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.airborne import airborne
 from fluid_sim_ros.reality.carried import with_parts
@@ -48,7 +49,7 @@ class Chosen:
 
 def chart_against(
     flight: Flight, model: str, outputs: Sequence[Output] = (), chosen: Chosen = Chosen(),
-    report: Callable[[str, int, int], None] = lambda *_: None,
+    report: Report = silent,
 ) -> dict[str, Any]:  # fmt: skip
     """
     Return the errors of a model's rungs to a flight, and what they cost.

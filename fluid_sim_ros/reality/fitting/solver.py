@@ -11,6 +11,7 @@ import numpy as np
 from fluid_sim_ros.errors import ModelError
 from fluid_sim_ros.flights.flight import Flight
 from fluid_sim_ros.flights.mapping import Output
+from fluid_sim_ros.output.progress import Report
 from fluid_sim_ros.physics.arrays import Array
 from fluid_sim_ros.reality.driven import comparable_scene, drive
 from fluid_sim_ros.reality.fitting.delays import delays_of
@@ -27,8 +28,6 @@ from fluid_sim_ros.reality.fitting.shooting import Linear, Shooter, Shots, Trial
 from fluid_sim_ros.reality.parameter import Parameter
 from fluid_sim_ros.reality.parameters import edit_of
 from fluid_sim_ros.schema.settings import RunSettings
-
-Report = Callable[[str, int, int], None]
 
 _MOST_STEPS = 20
 #: Fitted when no parameter moves by more than this share of its scale, or the sum of squares not.

@@ -132,12 +132,10 @@ def read_tracks(log: Log) -> Tracks:
         If it holds no odometry, or messages that do not fit their definition.
 
     """
-    found = {
-        topic.name: Series() for topic in log.topics.values()
+    found = log.series({
+        topic.name for topic in log.topics.values()
         if topic.type == _ODOMETRY or '/wrench/' in topic.name or '/cmd/' in topic.name
-    }  # fmt: skip
-    for message in log.messages(found):
-        found[message.topic].add(message)
+    })  # fmt: skip
     flown = [t for t in log.topics.values() if t.type == _ODOMETRY and found[t.name].data]
     check_limit('drawn_vehicles', len(flown), f'{log.path}: vehicles')
     vehicles, factor = [], np.empty((0, 2))
