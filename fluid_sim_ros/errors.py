@@ -8,6 +8,7 @@ Text of files, logs and networks goes into them, and onto a terminal, by ``print
 
 import difflib
 import errno
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from datetime import date
@@ -18,8 +19,8 @@ from typing import Any
 #: Longest piece of foreign text in a line for people, and longest line [characters]; most names
 #: of a list.
 MOST_TEXT, MOST_LINE, MOST_NAMES = 200, 4000, 50
-#: Longest message of an error [characters].
-_LONGEST_MESSAGE = 10_000
+#: A name that is longer than what is shown of others, or anything else without a space.
+_LONG_WORD = re.compile(rf"'[^']{{{MOST_TEXT},}}'|\S{{{MOST_TEXT},}}")
 
 #: Least share of equal letters at which one word is taken for another: rovv and rov have 0.86.
 _SIMILAR = 0.7
@@ -29,7 +30,8 @@ class FluidSimError(Exception):
     """
     Base of every error that the package raises on purpose.
 
-    Its message is one line without control characters, whatever texts of others are in it.
+    Its message is one line without control characters, whatever texts of others are in it. In one
+    that is too long, long names are cut, so that what is allowed, behind them, is still seen.
 
     Parameters
     ----------
@@ -39,7 +41,10 @@ class FluidSimError(Exception):
     """
 
     def __init__(self, message: object = '') -> None:
-        super().__init__(printable(str(message), _LONGEST_MESSAGE))
+        words = str(message)
+        if len(words) > MOST_LINE:
+            words = _LONG_WORD.sub(lambda found: _cut(found[0]), words)
+        super().__init__(printable(words, MOST_LINE))
 
 
 class ConfigError(FluidSimError):
@@ -117,6 +122,12 @@ def printable(text: object, most: int = MOST_TEXT) -> str:
     if not words.isprintable():
         words = ''.join(c if c.isprintable() else _escaped(c) for c in words)
     return f'{words}... ({rest} more characters)' if rest > 0 else words
+
+
+def _cut(word: str) -> str:
+    quote = "'" if word[0] == word[-1] == "'" else ''
+    inner = word.strip("'") if quote else word
+    return f'{quote}{printable(inner)}{quote}'
 
 
 def _escaped(character: str) -> str:

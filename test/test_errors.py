@@ -9,7 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fluid_sim_ros.errors import MOST_NAMES, MOST_TEXT, listed, printable
+from fluid_sim_ros.errors import (
+    MOST_LINE,
+    MOST_NAMES,
+    MOST_TEXT,
+    ConfigError,
+    listed,
+    printable,
+)
 
 
 @pytest.mark.parametrize(
@@ -66,3 +73,20 @@ def test_names_of_others_in_a_list():
     many = listed(f'n{i}' for i in range(1000))
     assert many.endswith(f'n{MOST_NAMES - 1}, and {1000 - MOST_NAMES} more')
     assert len(listed(['x' * 10**6] * 1000)) < 200 * MOST_NAMES
+
+
+@pytest.mark.parametrize(
+    'name', ['x' * 100_000, 'two words ' * 10_000, "it's " * 30_000, '\x1b' * 5000]
+)
+def test_behind_a_long_name_it_is_still_said_what_is_allowed(name):
+    """Found by the hostile files: a keyframe of 100,000 letters, and nothing behind it."""
+    line = str(ConfigError(f"a.yaml: keyframe '{name}' is not in the model; it has: hover, land"))
+    assert len(line) < MOST_LINE + 100 and line.isprintable()
+    assert line.startswith("a.yaml: keyframe '")
+    if "'" not in name:
+        assert line.endswith("more characters)' is not in the model; it has: hover, land")
+
+
+def test_a_message_of_usual_length_stays_as_it_is():
+    line = f"file '/{'folder/' * 60}a.xml' is not there"
+    assert str(ConfigError(line)) == line

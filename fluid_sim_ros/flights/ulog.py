@@ -7,7 +7,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from fluid_sim_ros.errors import needed_for
+from fluid_sim_ros.errors import listed, needed_for
 from fluid_sim_ros.flights.flight import FlightError, RawLog, Stream
 from fluid_sim_ros.flights.strangers import reason_of, silent
 from fluid_sim_ros.schema.data_file import open_data
@@ -70,7 +70,7 @@ def read_ulog(path: Path) -> RawLog:
             log: Any = ULog(_Bounded(stream, path.stat().st_size))
     except Exception as error:  # noqa: BLE001  pyulog raises anything on a damaged log
         raise FlightError(f'{path}: no ULog that pyulog reads ({reason_of(error)})') from None
-    streams = {}
+    streams, untimed = {}, []
     for topic in log.data_list:
         columns = {
             name: np.asarray(values, dtype=np.float64)
@@ -78,6 +78,9 @@ def read_ulog(path: Path) -> RawLog:
             if name != 'timestamp' and np.issubdtype(np.asarray(values).dtype, np.number)
         }
         name = topic.name if not topic.multi_id else f'{topic.name}#{topic.multi_id}'
+        if 'timestamp' not in topic.data:
+            untimed.append(name)
+            continue
         times = np.asarray(topic.data['timestamp'], dtype=np.float64) * 1e-6
         streams[name] = Stream(times, columns)
     cut = _cut_off(path)
@@ -87,6 +90,8 @@ def read_ulog(path: Path) -> RawLog:
         faults.append('damaged: what pyulog could read is read')
     if cut:
         faults.append('damaged: cut off within a message; what is before is read')
+    if untimed:
+        faults.append(f'topics without a timestamp, which are left out: {listed(untimed)}')
     about = {words: str(log.msg_info_dict[key]) for key, words in _ABOUT.items()
              if key in log.msg_info_dict}  # fmt: skip
     about |= {words: f'{log.initial_parameters[key]:g}' for key, words in _PARAMETERS.items()

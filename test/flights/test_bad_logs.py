@@ -270,3 +270,17 @@ def test_a_ulog_that_leads_back_to_the_same_place_ends(tmp_path):
     path = foreign_file('ulg', 213, tmp_path, tmp_path / 'kept')
     with pytest.raises(FlightError, match='no ULog that pyulog reads'):
         read_ulog(path)
+
+
+def test_a_topic_of_a_ulog_without_times_is_left_out_and_told(tmp_path):
+    """Found by the hostile files."""
+    content = logs.ulog(logs.px4(FLIGHT))
+    path = tmp_path / 'a.ulg'
+    path.write_bytes(
+        content.replace(
+            b'sensor_combined:uint64_t timestamp', b'sensor_combined:uint64_t timestxmp'
+        )
+    )
+    raw = read_ulog(path)
+    assert 'sensor_combined' not in raw.streams and 'vehicle_attitude' in raw.streams
+    assert any('without a timestamp' in f and 'sensor_combined' in f for f in raw.faults)
