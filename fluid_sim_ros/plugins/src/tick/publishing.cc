@@ -39,12 +39,12 @@ void Publishing::Put(const void* publisher, const std::uint8_t* data, std::size_
     if (used_ + skipped + need <= whole) {
       if (skipped) {
         const Record gap{nullptr, rest};
-        std::memcpy(&ring_[end], &gap, kHead);
+        std::memcpy(ring_.data() + end, &gap, kHead);
       }
       const std::size_t place = skipped ? 0 : end;
       const Record record{publisher, size};
-      std::memcpy(&ring_[place], &record, kHead);
-      std::memcpy(&ring_[place + kHead], data, size);
+      std::memcpy(ring_.data() + place, &record, kHead);
+      std::memcpy(ring_.data() + place + kHead, data, size);
       used_ += skipped + need;
       ++count_;
       return;
@@ -114,7 +114,7 @@ void Publishing::Run() {
     asleep_ = false;
     if (!count_ || abandoned_) return;
     Record record;
-    std::memcpy(&record, &ring_[first_], kHead);
+    std::memcpy(&record, ring_.data() + first_, kHead);
     if (!record.publisher) {
       used_ -= record.size;
       first_ = 0;
@@ -122,7 +122,7 @@ void Publishing::Run() {
     }
     const std::size_t place = first_, taken = kHead + Rounded(record.size, kHead);
     lock.unlock();
-    Send(record.publisher, &ring_[place + kHead], record.size);
+    Send(record.publisher, ring_.data() + place + kHead, record.size);
     lock.lock();
     first_ = (first_ + taken) % whole;
     used_ -= taken;
