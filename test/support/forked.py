@@ -24,12 +24,14 @@ from test.support.paths import ROOT
 @functools.cache
 def _server():
     """Start the server of this test process; it ends with it."""
+    # a fork has no threads, so that none may be started before it, as numpy's libraries would
+    environment = {**os.environ, 'OPENBLAS_NUM_THREADS': '1'}
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     with theirs:
         server = subprocess.Popen(
             [sys.executable, '-m', 'test.support.fork_server', str(theirs.fileno())],
             pass_fds=[theirs.fileno()], cwd=ROOT, stdin=subprocess.DEVNULL,
-            start_new_session=True,
+            start_new_session=True, env=environment,
         )  # fmt: skip
 
     def end():
