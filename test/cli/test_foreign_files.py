@@ -41,3 +41,10 @@ def test_hostile_files_of_others_are_read_or_refused(kind, tmp_path, monkeypatch
 def test_hundreds_of_hostile_files_of_others(kind, tmp_path, monkeypatch):
     count = 100 if kind in SLOW else 400
     check(kind, range(2 * 10**6, 2 * 10**6 + count), tmp_path, monkeypatch)
+
+
+@pytest.mark.filterwarnings('ignore')
+@pytest.mark.parametrize(('kind', 'seed'), [('ulg', 1409), ('chart', 81), ('flight_csv', 584)])
+def test_what_the_large_volumes_found(kind, seed, tmp_path, monkeypatch):
+    """A topic without times, orders of convergence that are none, 60,000 columns."""
+    check(kind, [seed], tmp_path, monkeypatch)

@@ -26,7 +26,10 @@ _QUICK_COUNT, _QUICK_LARGEST, _QUICK_ROUNDS = 4, 0.02, 10
 #: Exit code where some of the problems failed.
 FAILED = 2
 #: Errors of one problem that do not end the others.
-_CAUGHT = (FluidSimError, RuntimeError, ArithmeticError, LookupError, ValueError, TypeError)
+_CAUGHT = (
+    FluidSimError, RuntimeError, ArithmeticError, LookupError, ValueError, TypeError,
+    AttributeError,
+)  # fmt: skip
 
 
 def add_parser(commands: Any, show: Show) -> None:
