@@ -64,6 +64,10 @@ def value(random: Random, depth: int = 0) -> Any:
     return {text(random): value(random, depth + 1) for _ in range(random.randrange(4))}
 
 
+#: Places of a tree that is not made a thousand times larger.
+_MANY = 10_000
+
+
 def mutated(random: Random, tree: Any) -> Any:
     """Return a JSON-like value with one thing in it replaced, taken away, renamed or doubled."""
     places = list(_places(tree)) if isinstance(tree, dict | list) else []
@@ -76,7 +80,9 @@ def mutated(random: Random, tree: Any) -> Any:
     elif kind == 1:
         del owner[key]
     elif kind == 2 and isinstance(owner, list):
-        owner[key:key] = [owner[key]] * random.choice((1, 2, 1000))
+        times = random.choice((1, 2, 1000))
+        # a thousand times a thousand times a thousand is no file that anybody could send
+        owner[key:key] = [owner[key]] * (times if len(places) < _MANY else min(times, 2))
     elif kind == 3 and isinstance(owner[key], int | float):
         owner[key] = number(random)
     elif kind == 4 and isinstance(owner[key], str):
