@@ -4,8 +4,6 @@
 
 import io
 import json
-import os
-import pty
 import subprocess
 import sys
 
@@ -19,6 +17,7 @@ from fluid_sim_ros.errors import ConfigError
 from fluid_sim_ros.lab.problems.catalogue import problem
 from fluid_sim_ros.lab.problems.problem import fits
 from fluid_sim_ros.scene import Scene, scene_names
+from test.support.terminal import shown_in_a_terminal
 
 SCENE = """\
 model: {model}
@@ -166,23 +165,7 @@ def test_progress_during_advise(mine, capfd):
     parts = ('manoeuvre', 'reference (RK4)', 'search', 'cost of a step', 'limits')
     for part in parts:
         assert f'mine: {part}: 0 of' in done.stderr
-    master, slave = pty.openpty()
-    process = subprocess.Popen(
-        command,
-        stdout=subprocess.PIPE,
-        stderr=slave,
-        text=True,
-        env={**os.environ, 'TERM': 'xterm'},
-    )
-    os.close(slave)
-    seen = b''
-    while True:
-        try:
-            seen += os.read(master, 4096)
-        except OSError:  # the other end is closed
-            break
-    assert process.wait() == 0
-    os.close(master)
+    seen = shown_in_a_terminal(command)
     assert 'mine: search' in seen.decode()
     assert '0 of' not in seen.decode()
 

@@ -2,9 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Passes over a log: as few as memory allows, and whoever waits for one sees how far it is."""
 
-import os
-import pty
-import subprocess
 import sys
 from pathlib import Path
 
@@ -16,6 +13,7 @@ from fluid_sim_ros.recording import export
 from fluid_sim_ros.recording.reader import open_log
 from test.support import log_files as mcap
 from test.support.recorded_flights import record_flight
+from test.support.terminal import shown_in_a_terminal
 
 
 @pytest.fixture(scope='module')
@@ -85,20 +83,8 @@ def test_long_work_on_a_log_shows_how_far_it_is(command, log, tmp_path, capsys, 
 
 
 def test_in_a_terminal_it_is_a_bar(log, tmp_path):
-    master, slave = pty.openpty()
     command = [sys.executable, '-m', 'fluid_sim_ros.cli', 'repair', str(log), str(tmp_path / 'r')]
-    process = subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=slave, env={**os.environ, 'TERM': 'xterm'}
-    )
-    os.close(slave)
-    seen = b''
-    while True:
-        try:
-            seen += os.read(master, 4096)
-        except OSError:  # the other end is closed
-            break
-    os.close(master)
-    assert process.wait() == 0
+    seen = shown_in_a_terminal(command)
     assert b' of ' not in seen and b'\x1b[' in seen
 
 
